@@ -1,0 +1,1 @@
+"""Automata: what a robot with a few short-range sensors is able to do."""

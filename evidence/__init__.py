@@ -1,0 +1,1 @@
+"""Dempster-Shafer evidence, and the decision that a loop is closed."""

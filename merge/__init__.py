@@ -1,0 +1,1 @@
+"""Merging of maps that share no frame, on plain graphs and arrays."""

@@ -1,0 +1,1 @@
+"""Topological mapping and map merging with sensing-limited robots."""

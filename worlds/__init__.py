@@ -1,0 +1,1 @@
+"""Simulated worlds, and the bodies that robots have in them."""
