@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 
 from topomap.embedding import embedded
 from topomap.topological_map import TopologicalMap, Vertex, same_direction
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["Comparison", "compare_maps"]
 
@@ -35,7 +32,9 @@ class Comparison:
     """Root mean square distance of matched vertices, in metres, after the rigid
     motion that makes it least; None when nothing is matched."""
     rotation: float | None
-    """Takes directions of the map to those of the reference, in radians."""
+    """That motion's angle, from the map to the reference, in radians."""
+    offset: tuple[float, float] | None
+    """That motion's way after the turn about the map's origin, in metres."""
     pairs: tuple[tuple[int, int], ...]
     """Matched vertices: id in the map, id in the reference."""
 
@@ -107,23 +106,25 @@ def _compare(
     whole = len(a.vertices) == len(b.vertices) and len(chart.edges) == len(
         reference.edges
     )
+    places = _places(chart), _places(reference)
     best: dict[int, int] = {}
     best_key = (False, 0, 0.0)
-    best_rotation = None
-    places = _places(chart), _places(reference)
-    for pairs, rotation, agrees in _matches(a, b, tolerance, whole):
+    motion: _Motion | None = None
+    for pairs, agrees in _matches(a, b, tolerance, whole):
         is_same = agrees and whole and len(pairs) == len(a.vertices)
         if (is_same, len(pairs)) < best_key[:2]:
             continue
-        key = (is_same, len(pairs), -_aligned_rmse(pairs, *places))
-        if not best or key > best_key:
-            best, best_key, best_rotation = pairs, key, rotation
+        found = _best_motion(pairs, *places)
+        key = (is_same, len(pairs), -found.rmse)
+        if motion is None or key > best_key:
+            best, best_key, motion = pairs, key, found
     return Comparison(
         correct=best_key[0],
         missing_vertices=len(b.vertices) - len(best),
         extra_vertices=len(a.vertices) - len(best),
-        position_rmse=-best_key[2] if best else None,
-        rotation=best_rotation,
+        position_rmse=motion and motion.rmse,
+        rotation=motion and motion.angle,
+        offset=motion and motion.offset,
         pairs=tuple(sorted(best.items())),
     )
 
@@ -141,8 +142,8 @@ class _Ways:
 
 def _matches(
     a: _Ways, b: _Ways, tolerance: float, whole: bool
-) -> Iterator[tuple[dict[int, int], float, bool]]:
-    """Yield the match grown from each seed: pairs, rotation, whether all agrees.
+) -> Iterator[tuple[dict[int, int], bool]]:
+    """Yield the match grown from each seed: pairs, and whether all agrees.
 
     For whole maps, every isomorphism contains the first vertex of `b`; parts
     are grown from every pair that is in no larger match yet.
@@ -158,7 +159,7 @@ def _matches(
                 pairs, agrees = _grow(a, b, p.id, q.id, rotation, tolerance)
                 done |= {(i, j, key[2]) for i, j in pairs.items()}
                 found_whole |= agrees
-                yield pairs, rotation, agrees
+                yield pairs, agrees
         if whole and found_whole:
             return
 
@@ -225,14 +226,25 @@ def _places(chart: TopologicalMap) -> dict[int, complex]:
     return {v.id: complex(*v.position) for v in chart.vertices if v.position}
 
 
-def _aligned_rmse(
+class _Motion(NamedTuple):
+    """A rigid motion: a turn about the origin, then a move."""
+
+    angle: float
+    offset: tuple[float, float]
+    rmse: float
+    """Root mean square distance that it leaves, in metres."""
+
+
+def _best_motion(
     pairs: dict[int, int], mine: dict[int, complex], theirs: dict[int, complex]
-) -> float:
-    """Return the least root mean square distance over all rigid motions."""
+) -> _Motion:
+    """Return the rigid motion that brings matched vertices nearest together."""
     p = np.array([mine[i] for i in pairs])
     q = np.array([theirs[j] for j in pairs.values()])
-    p, q = p - p.mean(), q - q.mean()
-    pull: np.complex128 = np.vdot(p, q)
-    turn = pull / abs(pull) if abs(pull) > 0 else 1.0
-    residual: NDArray[np.float64] = np.abs(q - turn * p)
-    return float(np.sqrt(np.mean(residual**2)))
+    pull = np.vdot(p - p.mean(), q - q.mean())
+    turn = pull / abs(pull) if abs(pull) > 0 else 1.0 + 0.0j
+    move = q.mean() - turn * p.mean()
+    rmse = np.sqrt(np.mean(np.abs(q - turn * p - move) ** 2))
+    return _Motion(
+        float(np.angle(turn)), (float(move.real), float(move.imag)), float(rmse)
+    )
