@@ -145,7 +145,7 @@ class TopologicalMap:
 
 def same_direction(a: float, b: float, tolerance: float = ANGLE_TOLERANCE) -> bool:
     """Tell whether two directions, in radians, agree up to full turns."""
-    return abs(math.remainder(a - b, math.tau)) <= tolerance
+    return a == b or abs(math.remainder(a - b, math.tau)) <= tolerance
 
 
 def _faults(chart: TopologicalMap) -> Iterator[InputError]:
