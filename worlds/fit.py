@@ -57,6 +57,7 @@ def check_fit(world: World, parameters: Parameters) -> None:
 
     Examples
     --------
+    >>> from behaviours.parameters import Parameters
     >>> from worlds.world import make_world
     >>> closet = make_world([(0, 0), (2, 0), (2, 0.5), (0, 0.5)])
     >>> check_fit(closet, Parameters(r0=0.3))

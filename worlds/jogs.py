@@ -38,6 +38,7 @@ def jogs(ring: Ring, parameters: Parameters) -> list[int]:
 
     Examples
     --------
+    >>> from behaviours.parameters import Parameters
     >>> room = (0, 0), (3, 0), (3, 0.1), (6, 0.1), (6, 4), (0, 4)
     >>> jogs(room, Parameters(r0=0.3, r_min=0.15))
     [1]
@@ -76,6 +77,7 @@ def straightened(ring: Ring, parameters: Parameters) -> Ring:
 
     Examples
     --------
+    >>> from behaviours.parameters import Parameters
     >>> room = (0, 0), (2, 0), (2, 0.1), (6, 0.1), (6, 4), (0, 4)
     >>> straightened(room, Parameters(r0=0.3, r_min=0.15))
     ((6, 0.1), (6, 4), (0, 4), (0, 0.1))

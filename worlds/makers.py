@@ -55,6 +55,7 @@ def make(kind: str, rng: np.random.Generator, **options: object) -> World:
     --------
     A room with twelve corners around two islands, the same for the same seed:
 
+    >>> import numpy as np
     >>> room = make("random", np.random.default_rng(7), corners=12, islands=2)
     >>> [len(ring) for ring in room.rings]
     [12, 8, 6]

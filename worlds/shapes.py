@@ -77,15 +77,14 @@ def _spiral(
     rng: np.random.Generator, wraps: int, arm: float, wall: float, variation: float
 ) -> World:
     """Unroll a corridor leftwards; each side is two cells longer, every other turn."""
-    way = [np.array([0, 0])]
-    step = np.array([1, 0])
+    here, step, sides = np.array([0, 0]), np.array([1, 0]), []
     for side in range(4 * wraps):
-        way.append(way[-1] + 2 * (side // 2 + 1) * step)
-        step = np.array([-step[1], step[0]])
-    corridor = shapely.LineString(np.array(way)).buffer(
-        0.5, cap_style="square", join_style="mitre"
-    )
-    corners = np.rint(np.asarray(corridor.exterior.coords)[:-1] + 0.5).astype(int)
+        there = here + 2 * (side // 2 + 1) * step
+        low, high = np.minimum(here, there), np.maximum(here, there) + 1
+        sides.append(shapely.box(*low, *high))
+        here, step = there, np.array([-step[1], step[0]])
+    corridor = shapely.union_all(sides)
+    corners = np.rint(corridor.exterior.coords).astype(int)[:-1]
     corners -= corners.min(axis=0)
     columns, rows = corners.max(axis=0)
     gaps = [arm, wall]

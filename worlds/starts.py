@@ -51,6 +51,8 @@ def choose_start(
 
     Examples
     --------
+    >>> import numpy as np
+    >>> from behaviours.parameters import Parameters
     >>> from worlds.world import make_world
     >>> room = make_world([(0, 0), (4, 0), (4, 3), (0, 3)])
     >>> start = choose_start(room, Parameters(r0=0.3), np.random.default_rng(1))
