@@ -84,7 +84,7 @@ def _spiral(
         sides.append(shapely.box(*low, *high))
         here, step = there, np.array([-step[1], step[0]])
     corridor = shapely.union_all(sides)
-    corners = np.rint(corridor.exterior.coords).astype(int)[:-1]
+    corners = np.rint(shapely.get_coordinates(corridor)).astype(int)[:-1]
     corners -= corners.min(axis=0)
     columns, rows = corners.max(axis=0)
     gaps = [arm, wall]
