@@ -70,9 +70,9 @@ def compare_maps(
     -----
     An isomorphism keeps types, exits with their directions up to one rotation,
     and unexplored exits; lengths and positions are not compared but reported.
-    One matched pair of vertices and a rotation decide all others, so each seed
-    is grown in linear time; at worst O(V^2), in practice one seed in few
-    survives its first steps. Maps are never mirrored.
+    One matched pair of vertices and a rotation decide all others: an isomorphism
+    is found or excluded in O(V^2) at worst, near O(V) where corners differ; the
+    parts of maps that are not isomorphic take O(V^2). Maps are never mirrored.
 
     Examples
     --------
@@ -103,23 +103,17 @@ def _compare(
     chart: TopologicalMap, reference: TopologicalMap, tolerance: float
 ) -> Comparison:
     a, b = _Ways(chart), _Ways(reference)
-    whole = len(a.vertices) == len(b.vertices) and len(chart.edges) == len(
-        reference.edges
-    )
     places = _places(chart), _places(reference)
-    best: dict[int, int] = {}
-    best_key = (False, 0, 0.0)
-    motion: _Motion | None = None
-    for pairs, agrees in _matches(a, b, tolerance, whole):
-        is_same = agrees and whole and len(pairs) == len(a.vertices)
-        if (is_same, len(pairs)) < best_key[:2]:
-            continue
-        found = _best_motion(pairs, *places)
-        key = (is_same, len(pairs), -found.rmse)
-        if motion is None or key > best_key:
-            best, best_key, motion = pairs, key, found
+    found = list(_isomorphisms(a, b, tolerance))
+    is_same = bool(found)
+    if not found:
+        parts = _agreeing_parts(a, b, tolerance)
+        size = max(map(len, parts), default=0)
+        found = [pairs for pairs in parts if len(pairs) == size]
+    ranked = ((_best_motion(pairs, *places), pairs) for pairs in found)
+    motion, best = min(ranked, key=lambda pair: pair[0].rmse, default=(None, {}))
     return Comparison(
-        correct=best_key[0],
+        correct=is_same,
         missing_vertices=len(b.vertices) - len(best),
         extra_vertices=len(a.vertices) - len(best),
         position_rmse=motion and motion.rmse,
@@ -133,6 +127,7 @@ class _Ways:
     """A map by its exits: where each exit of each vertex leads."""
 
     def __init__(self, chart: TopologicalMap) -> None:
+        self.edges = len(chart.edges)
         self.vertices = {vertex.id: vertex for vertex in chart.vertices}
         self.leads: dict[int, list[tuple[float, int]]] = {v: [] for v in self.vertices}
         for edge in chart.edges:
@@ -140,28 +135,35 @@ class _Ways:
             self.leads[edge.target].append((edge.target_exit, edge.source))
 
 
-def _matches(
-    a: _Ways, b: _Ways, tolerance: float, whole: bool
-) -> Iterator[tuple[dict[int, int], bool]]:
-    """Yield the match grown from each seed: pairs, and whether all agrees.
+def _isomorphisms(a: _Ways, b: _Ways, tolerance: float) -> Iterator[dict[int, int]]:
+    """Yield all matches of the whole of one map with the whole of the other.
 
-    For whole maps, every isomorphism contains the first vertex of `b`; parts
-    are grown from every pair that is in no larger match yet.
+    Each contains the first vertex of `b`, and grows from there.
     """
+    if len(a.vertices) != len(b.vertices) or a.edges != b.edges or not b.vertices:
+        return
+    q = next(iter(b.vertices.values()))
+    for p in a.vertices.values():
+        for rotation in _rotations(p, q, tolerance):
+            pairs, agrees = _grow(a, b, p.id, q.id, rotation, tolerance, strict=True)
+            if agrees and len(pairs) == len(a.vertices):
+                yield pairs
+
+
+def _agreeing_parts(a: _Ways, b: _Ways, tolerance: float) -> list[dict[int, int]]:
+    """Return the maximal connected matches, each grown from its first pair."""
     done: set[tuple[int, int, int]] = set()
-    found_whole = False
+    parts = []
     for q in b.vertices.values():
         for p in a.vertices.values():
             for rotation in _rotations(p, q, tolerance):
-                key = (p.id, q.id, round(math.degrees(rotation)) % 360)
-                if key in done:
+                degrees = round(math.degrees(rotation)) % 360
+                if (p.id, q.id, degrees) in done:
                     continue
-                pairs, agrees = _grow(a, b, p.id, q.id, rotation, tolerance)
-                done |= {(i, j, key[2]) for i, j in pairs.items()}
-                found_whole |= agrees
-                yield pairs, agrees
-        if whole and found_whole:
-            return
+                pairs, _ = _grow(a, b, p.id, q.id, rotation, tolerance)
+                done |= {(i, j, degrees) for i, j in pairs.items()}
+                parts.append(pairs)
+    return parts
 
 
 def _rotations(p: Vertex, q: Vertex, tolerance: float) -> list[float]:
@@ -176,47 +178,68 @@ def _rotations(p: Vertex, q: Vertex, tolerance: float) -> list[float]:
 
 def _agree(p: Vertex, q: Vertex, rotation: float, tolerance: float) -> bool:
     """Tell whether two vertices are the same, one turned."""
-
-    def laid_over(mine: tuple[float, ...], theirs: tuple[float, ...]) -> bool:
-        return len(mine) == len(theirs) and all(
-            any(same_direction(m + rotation, t, tolerance) for t in theirs)
-            for m in mine
-        )
-
     return (
         p.type is q.type
-        and laid_over(p.exits, q.exits)
-        and laid_over(p.unexplored, q.unexplored)
+        and _laid_over(p.exits, q.exits, rotation, tolerance)
+        and _laid_over(p.unexplored, q.unexplored, rotation, tolerance)
     )
 
 
+def _laid_over(
+    mine: tuple[float, ...],
+    theirs: tuple[float, ...],
+    rotation: float,
+    tolerance: float,
+) -> bool:
+    """Tell whether one set of directions, turned, is the other."""
+    if len(mine) != len(theirs):
+        return False
+    for direction in mine:
+        turned = direction + rotation
+        if not any(same_direction(turned, other, tolerance) for other in theirs):
+            return False
+    return True
+
+
 def _grow(
-    a: _Ways, b: _Ways, p: int, q: int, rotation: float, tolerance: float
+    a: _Ways,
+    b: _Ways,
+    p: int,
+    q: int,
+    rotation: float,
+    tolerance: float,
+    *,
+    strict: bool = False,
 ) -> tuple[dict[int, int], bool]:
-    """Match outwards from one pair as far as the maps agree."""
+    """Match outwards from one pair; return the pairs and whether all agreed.
+
+    A disagreement bounds the match there; a strict one ends at the first.
+    """
     pairs, taken, agrees = {p: q}, {q}, True
     todo = [(p, q)]
-    while todo:
+    while todo and (agrees or not strict):
         i, j = todo.pop()
         for direction, neighbour in a.leads[i]:
-            there = [
-                other
-                for other_direction, other in b.leads[j]
-                if same_direction(direction + rotation, other_direction, tolerance)
-            ]
-            if len(there) != 1:
+            there = _follow(b, j, direction + rotation, tolerance)
+            if there is None:
                 agrees = False
-            elif neighbour in pairs or there[0] in taken:
-                agrees &= pairs.get(neighbour) == there[0]
-            elif _agree(
-                a.vertices[neighbour], b.vertices[there[0]], rotation, tolerance
-            ):
-                pairs[neighbour] = there[0]
-                taken.add(there[0])
-                todo.append((neighbour, there[0]))
+            elif neighbour in pairs or there in taken:
+                agrees &= pairs.get(neighbour) == there
+            elif _agree(a.vertices[neighbour], b.vertices[there], rotation, tolerance):
+                pairs[neighbour] = there
+                taken.add(there)
+                todo.append((neighbour, there))
             else:
                 agrees = False
     return pairs, agrees
+
+
+def _follow(ways: _Ways, vertex: int, direction: float, tolerance: float) -> int | None:
+    """Return where the exit in a direction leads; None if no edge does."""
+    for exit_, neighbour in ways.leads[vertex]:
+        if same_direction(exit_, direction, tolerance):
+            return neighbour
+    return None
 
 
 def _places(chart: TopologicalMap) -> dict[int, complex]:
