@@ -1,0 +1,145 @@
+"""How far and how slanted a followed wall is, and where it changes.
+
+A Kalman filter over two numbers, the distance d of the robot's centre from the
+wall and its heading q away from the wall, fed by one side ranger and the
+odometry. Successive readings give the heading; readings that do not fit, several
+in a row, are a change of the wall.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from behaviours.parameters import Parameters
+from behaviours.port import Reason, Side
+from worlds.profiles import Profile, looks_along
+
+__all__ = ["Change", "WallTrack"]
+
+CONFIRM = 4
+"""So many misfits in a row are a change of the wall."""
+SEED = 3
+"""So many readings that agree are a wall."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A place where the followed wall changes."""
+
+    reason: Reason
+    """RECEDED or STEPPED."""
+    place: float
+    """What the odometer shows when the robot's centre is abeam of it, in metres."""
+    range: float
+    """Distance of what follows, in metres from the centre; may be infinite."""
+
+
+class WallTrack:
+    """The estimate of one wall on one side, for one `Follow`."""
+
+    def __init__(
+        self, profile: Profile, parameters: Parameters, side: Side, wander: float
+    ) -> None:
+        ranger = next(
+            r for r in profile.rangers if looks_along(r, side.value * math.pi / 2)
+        )
+        self.distance = math.inf
+        """Of the centre from the wall, in metres."""
+        self.lean = 0.0
+        """Heading away from the wall, in radians."""
+        self.lean_variance = 0.0
+        """In squared radians."""
+        self.change: Change | None = None
+        self._sense = -side.value
+        self._mount = ranger.x
+        self._offset = abs(ranger.y)
+        self._cone = math.tan(ranger.cone)
+        self._noise = ranger.noise, ranger.noise_growth
+        self._parameters = parameters
+        self._wander = wander
+        self._least = 0.1 * parameters.r0
+        self._pdd = self._pdq = 0.0
+        self._odometer = self._turned = 0.0
+        self._misfits: list[tuple[float, float]] = []
+        self._seeds: list[tuple[float, float]] = []
+
+    @property
+    def is_on_wall(self) -> bool:
+        """Whether a wall has been found."""
+        return self.distance < math.inf
+
+    def begin(self, odometer: float, turned: float, lean: float, variance: float) -> None:
+        """Start from a heading, counter-clockwise against the leg's axis."""
+        self._odometer, self._turned = odometer, turned
+        self.lean, self.lean_variance = self._sense * lean, variance
+
+    def update(self, odometer: float, turned: float, reading: float) -> None:
+        """Take in one answer of the side ranger, in metres from the centre."""
+        way = odometer - self._odometer
+        turn = self._sense * (turned - self._turned)
+        self._odometer, self._turned = odometer, turned
+        if self.is_on_wall:
+            self.distance += way * (self.lean + 0.5 * turn)
+            self._pdd += way * (2 * self._pdq + way * self.lean_variance) + 1e-8
+            self._pdq += way * self.lean_variance
+        self.lean += turn
+        self.lean_variance += self._wander * abs(way)
+        if not self.is_on_wall:
+            self._look_for_wall(odometer, reading)
+        elif self.change is None:
+            self._correct(way, reading)
+
+    def _look_for_wall(self, odometer: float, reading: float) -> None:
+        """Start the filter once a few readings agree on a wall in reach."""
+        reach = self._parameters.r_max + self._least
+        if reading > reach or (
+            self._seeds and abs(reading - self._seeds[-1][1]) > 2 * self._least
+        ):
+            self._seeds.clear()
+        if reading <= reach:
+            self._seeds.append((odometer, reading))
+        if len(self._seeds) == SEED:
+            mean = sum(z for _, z in self._seeds) / SEED
+            self.distance = mean - self._mount * self.lean
+            self._pdd = self._variance(mean) / SEED
+            self._pdd += self._mount**2 * self.lean_variance
+            self._pdq = -self._mount * self.lean_variance
+
+    def _correct(self, way: float, reading: float) -> None:
+        """Correct distance and heading, or count a misfit."""
+        mount = self._mount
+        expected = self.distance + mount * self.lean
+        misfit = reading - expected
+        noise = self._variance(min(reading, expected))
+        hd = self._pdd + mount * self._pdq
+        hq = self._pdq + mount * self.lean_variance
+        spread = hd + mount * hq + noise
+        if abs(misfit) > max(self._least, 4.0 * math.sqrt(spread)):
+            self._misfits.append((self._odometer - 0.5 * way, reading))
+            if len(self._misfits) == CONFIRM:
+                self._decide(expected)
+            return
+        self._misfits.clear()
+        self.distance += hd / spread * misfit
+        self.lean += hq / spread * misfit
+        self._pdd -= hd * hd / spread
+        self._pdq -= hd * hq / spread
+        self.lean_variance -= hq * hq / spread
+
+    def _decide(self, expected: float) -> None:
+        """Say what the misfits are and where they began."""
+        ranges = sorted(reading for _, reading in self._misfits)
+        middle = 0.5 * (ranges[CONFIRM // 2 - 1] + ranges[CONFIRM // 2])
+        recess = middle - expected
+        lag = self._cone * (min(expected, middle) - self._offset)
+        place = self._misfits[0][0] + self._mount + (lag if recess < 0 else -lag)
+        gone = recess > self._parameters.least_recess
+        reason = Reason.RECEDED if gone else Reason.STEPPED
+        self.change = Change(reason, place, middle)
+
+    def _variance(self, reading: float) -> float:
+        """Return the variance of a reading, in squared metres."""
+        noise, growth = self._noise
+        range_ = reading - self._offset
+        return (noise + growth * range_ * range_) ** 2 + 1e-6
