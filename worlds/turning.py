@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 
 from behaviours.port import Align, Outcome, Reason, Side, Turn
+from worlds.profiles import looks_along
 from worlds.robot import Robot
+from worlds.scan import wall_of_scan
 from worlds.straight import Control, go, settle, stop
 
 __all__ = ["align", "turn"]
 
 SWEEP = math.radians(50)
 """A wall to square up with is looked for so far to either side, in radians."""
-WINDOW = math.radians(25)
-"""Readings so near to the wall's normal tell its direction, in radians."""
 SURE = 0.05**2
 """Below this variance, in squared radians, the heading needs no sweep."""
+SQUARE = 0.015
+"""Deviation of the heading after a sweep, in radians."""
 CLOSE = 0.02
 """An offset nearer to r0 than this, in metres, is left to following."""
 
@@ -66,7 +68,7 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
         return Outcome(0.0, Reason.DONE, robot.readings())
     yield from quarter(robot, side)
     if not known:
-        beside = yield from _square_up(robot)
+        beside = yield from _square_up(robot, side)
     reason = Reason.RECEDED
     advance = 0.0
     if beside <= robot.parameters.r_max + CLOSE:
@@ -90,7 +92,7 @@ def _mean_side(robot: Robot, side: Side, looks: int = 4) -> Control[float]:
     return sum(seen) / len(seen) if len(seen) > looks // 2 else math.inf
 
 
-def _square_up(robot: Robot) -> Control[float]:
+def _square_up(robot: Robot, side: Side) -> Control[float]:
     """Face the wall ahead squarely; return its distance, infinite if none is there."""
     axis = robot.turned
     scan: list[tuple[float, float]] = []
@@ -102,41 +104,19 @@ def _square_up(robot: Robot) -> Control[float]:
         if robot.is_fresh and (reading := robot.readings().front) < math.inf:
             scan.append((robot.turned - axis, reading))
     yield from stop(robot)
-    normal, distance = wall_of_scan(scan)
-    yield from spin(robot, axis + normal - robot.turned)
-    if distance < math.inf:
-        robot.lean, robot.lean_variance = 0.0, 0.015**2
-        robot.begin_leg()
+    wall = wall_of_scan(scan, _inverse_error(robot), side)
+    if wall is None:
+        yield from spin(robot, axis - robot.turned)
+        return math.inf
+    yield from spin(robot, axis + wall.normal - robot.turned)
+    robot.lean, robot.lean_variance = 0.0, SQUARE**2
+    robot.begin_leg()
     yield from settle(robot)
-    return distance
+    return wall.distance
 
 
-def wall_of_scan(scan: list[tuple[float, float]]) -> tuple[float, float]:
-    """Fit a wall to ranges over angles; return its normal and its distance."""
-    if len(scan) < 5:
-        return 0.0, math.inf
-    smooth = [
-        (sum(r for _, r in scan[k - 1 : k + 2]) / 3, scan[k][0])
-        for k in range(1, len(scan) - 1)
-    ]
-    centre = min(smooth)[1]
-    normal, distance = centre, min(smooth)[0]
-    for _ in range(4):
-        window = [(a, r) for a, r in scan if abs(a - centre) <= WINDOW]
-        if len(window) < 4:
-            break
-        normal, distance = _fit(window)
-        centre = min(max(normal, scan[0][0]), scan[-1][0])
-    return normal, distance
-
-
-def _fit(window: list[tuple[float, float]]) -> tuple[float, float]:
-    """Solve 1 / range = A cos(angle) + B sin(angle) by least squares."""
-    cc = cs = ss = cr = sr = 0.0
-    for angle, reading in window:
-        c, s = math.cos(angle), math.sin(angle)
-        cc, cs, ss = cc + c * c, cs + c * s, ss + s * s
-        cr, sr = cr + c / reading, sr + s / reading
-    det = cc * ss - cs * cs
-    a, b = (cr * ss - sr * cs) / det, (sr * cc - cr * cs) / det
-    return math.atan2(b, a), 1.0 / math.hypot(a, b)
+def _inverse_error(robot: Robot) -> float:
+    """Return the deviation of an inverse range ahead, in 1 / metres."""
+    ranger = next(r for r in robot.profile.rangers if looks_along(r, 0.0))
+    r0 = robot.parameters.r0
+    return (ranger.noise + 1e-3) / (r0 * r0) + ranger.noise_growth

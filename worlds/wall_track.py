@@ -117,8 +117,7 @@ class WallTrack:
         spread = hd + mount * hq + noise
         if abs(misfit) > max(self._least, 4.0 * math.sqrt(spread)):
             self._misfits.append((self._odometer - 0.5 * way, reading))
-            if len(self._misfits) == CONFIRM:
-                self._decide(expected)
+            self._decide(expected)
             return
         self._misfits.clear()
         self.distance += hd / spread * misfit
@@ -128,9 +127,18 @@ class WallTrack:
         self.lean_variance -= hq * hq / spread
 
     def _decide(self, expected: float) -> None:
-        """Say what the misfits are and where they began."""
-        ranges = sorted(reading for _, reading in self._misfits)
-        middle = 0.5 * (ranges[CONFIRM // 2 - 1] + ranges[CONFIRM // 2])
+        """Say what the misfits are and where they began, once they are settled.
+
+        Behind an edge the beam slides down the wall's end face: the readings
+        grow for some centimetres before they tell what is there.
+        """
+        recent = [z for s, z in self._misfits if s >= self._odometer - self._least]
+        recent = recent[-CONFIRM:]
+        way = self._odometer - self._misfits[0][0]
+        if min(self._misfits[-2:], key=_range)[1] - expected > self._parameters.least_recess:
+            gone = len(self._misfits) >= 2
+            middle = self._misfits[-1][1]
+        elif len(recent)
         recess = middle - expected
         lag = self._cone * (min(expected, middle) - self._offset)
         place = self._misfits[0][0] + self._mount + (lag if recess < 0 else -lag)
