@@ -1,0 +1,222 @@
+"""Where the vertices of a map lie, and how surely: sparse least squares."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from topomap.errors import InputError
+from topomap.topological_map import TopologicalMap
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+__all__ = ["Embedding", "embed", "embedded"]
+
+Triplets: TypeAlias = "tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]"
+"""Rows, columns and values of a sparse matrix; equal places add up."""
+
+EXACT = 1e-4
+"""Standard deviation, in metres, that stands in for an exact length."""
+SIDEWAYS = 1e-2
+"""Standard deviation, in metres, of where a wall lies beside the robot."""
+DENSE = 600
+"""Up to so many unknowns the stiffness matrix is inverted as a dense one."""
+
+
+class Embedding(NamedTuple):
+    """Positions of vertices in a common frame."""
+
+    positions: NDArray[np.float64]
+    """Shape (V, 2), in metres, in the order of the map's vertices."""
+    covariances: NDArray[np.float64]
+    """Shape (V, 2, 2), in square metres, relative to the first vertex of each
+    connected part."""
+
+
+def embed(chart: TopologicalMap) -> Embedding:
+    r"""Find the positions that best agree with all lengths of a map.
+
+    Each edge is a spring along its direction, as stiff as its fused length is
+    sure, and a stiffer one across it; the result has the least energy. The first
+    vertex of each connected part stays where the map has it, or at the origin.
+
+    Parameters
+    ----------
+    chart : TopologicalMap
+        Directions of exits are taken as exact, the directions of the springs.
+
+    Returns
+    -------
+    Embedding
+        In the frame in which the map's exits are given.
+
+    Raises
+    ------
+    InputError
+        If an edge leaves its two ends in directions that are not opposite, so
+        that it is no straight way.
+
+    Notes
+    -----
+    The energy is :math:`\sum_e |S_e^{-1/2} (x_t - x_s - d_e)|^2` with
+    :math:`d_e` the fused length and shift turned into the map's frame. [K]
+    4.3.3 has springs along the axes only and merges coordinates that a
+    perpendicular wall makes equal; the spring across the edge, 1 cm, says the
+    same of a wall that a sensor has measured, and serves any direction. Where
+    all edges run along x or y the two coordinates separate by themselves.
+
+    Sparse, near linear in the number of edges for maps of buildings; the
+    covariances take one solution of the factorised system a vertex.
+
+    Examples
+    --------
+    A corridor measured twice, 2.0 m and 2.2 m, with equal trust:
+
+    >>> from behaviours import VertexType
+    >>> from topomap.topological_map import Edge, Length, Vertex
+    >>> ends = (Vertex(0, VertexType.INT, (0.0,)), Vertex(1, VertexType.INT, (np.pi,)))
+    >>> way = Edge(0, 1, 0.0, np.pi, (Length(2.0, 0.1), Length(2.2, 0.1)))
+    >>> found = embed(TopologicalMap(ends, (way,)))
+    >>> found.positions.round(3).tolist()
+    [[0.0, 0.0], [2.1, 0.0]]
+    >>> float(found.covariances[1, 0, 0].round(4))
+    0.005
+    """
+    count = len(chart.vertices)
+    anchors = np.array([v.position or (0.0, 0.0) for v in chart.vertices])
+    if not chart.edges:
+        return Embedding(anchors.reshape(count, 2), np.zeros((count, 2, 2)))
+    index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
+    ends = np.array([(index[e.source], index[e.target]) for e in chart.edges])
+    fixed, part = _parts(count, ends)
+    free = np.setdiff1d(np.arange(count), fixed)
+    place = np.full(count, -1)
+    place[free] = np.arange(len(free))
+
+    way, weight = _springs(chart)
+    force = np.zeros((count, 2))
+    pull = np.einsum("eab,eb->ea", weight, way)
+    np.add.at(force, ends[:, 1], pull)
+    np.subtract.at(force, ends[:, 0], pull)
+    solution, blocks = _solve(_stiffness(place[ends], weight), force[free].ravel())
+
+    positions, covariances = np.zeros((count, 2)), np.zeros((count, 2, 2))
+    positions[free], covariances[free] = solution.reshape(-1, 2), blocks
+    # Springs do not mind where they are: each part is moved to its anchor.
+    return Embedding(positions + anchors[fixed][part], covariances)
+
+
+def embedded(chart: TopologicalMap) -> TopologicalMap:
+    """Return the map with the positions and covariances that `embed` finds."""
+    positions, covariances = embed(chart)
+    vertices = tuple(
+        replace(
+            vertex,
+            position=(float(x), float(y)),
+            covariance=(
+                (float(c[0, 0]), float(c[0, 1])),
+                (float(c[1, 0]), float(c[1, 1])),
+            ),
+        )
+        for vertex, (x, y), c in zip(
+            chart.vertices, positions, covariances, strict=True
+        )
+    )
+    return replace(chart, vertices=vertices)
+
+
+def _springs(
+    chart: TopologicalMap,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return for each edge its way (E, 2) and its stiffness (E, 2, 2)."""
+    rows = []
+    for k, edge in enumerate(chart.edges):
+        opposite = math.remainder(
+            edge.target_exit - edge.source_exit - math.pi, math.tau
+        )
+        if abs(opposite) > math.radians(5):
+            raise InputError(
+                "",
+                f"edges[{k}].target_exit_deg",
+                round(math.degrees(edge.target_exit), 3),
+                "the direction opposite to source_exit_deg, "
+                f"{math.degrees(edge.source_exit):g} +- 180",
+            )
+        fused = edge.fused
+        rows.append((edge.source_exit, fused.value, fused.sigma, edge.shift))
+    angle, length, sigma, shift = np.array(rows).T
+    c, s = np.cos(angle), np.sin(angle)
+    way = np.column_stack([length * c - shift * s, length * s + shift * c])
+    along = np.maximum(sigma, EXACT) ** -2.0
+    across = np.full_like(along, SIDEWAYS**-2.0)
+    weight = np.empty((len(angle), 2, 2))
+    weight[:, 0, 0] = along * c * c + across * s * s
+    weight[:, 1, 1] = along * s * s + across * c * c
+    weight[:, 0, 1] = weight[:, 1, 0] = (along - across) * c * s
+    return way, weight
+
+
+def _parts(
+    count: int, ends: NDArray[np.int64]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Return the first vertex of each connected part, and each vertex's part."""
+    part = list(range(count))
+
+    def root(k: int) -> int:
+        while part[k] != k:
+            part[k] = k = part[part[k]]
+        return k
+
+    for a, b in ends.tolist():
+        low, high = sorted((root(a), root(b)))
+        part[high] = low
+    return np.unique([root(k) for k in range(count)], return_inverse=True)
+
+
+def _stiffness(ends: NDArray[np.int64], weight: NDArray[np.float64]) -> Triplets:
+    """Return rows, columns and values of the stiffness of the free vertices.
+
+    `ends` are places among the free vertices, -1 for a fixed one.
+    """
+    rows, columns, values = [], [], []
+    axes = np.arange(2)
+    for here, there, sign in ((0, 0, 1.0), (1, 1, 1.0), (0, 1, -1.0), (1, 0, -1.0)):
+        is_free = (ends[:, here] >= 0) & (ends[:, there] >= 0)
+        row = 2 * ends[is_free, here, None, None] + axes[:, None]
+        column = 2 * ends[is_free, there, None, None] + axes
+        shape = (len(row), 2, 2)
+        rows.append(np.broadcast_to(row, shape).ravel())
+        columns.append(np.broadcast_to(column, shape).ravel())
+        values.append(sign * weight[is_free].ravel())
+    return np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
+
+
+def _solve(
+    stiffness: Triplets, force: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the solution, and the 2 x 2 blocks on the diagonal of the inverse."""
+    size = len(force)
+    rows, columns, values = stiffness
+    if size <= DENSE:
+        matrix = np.zeros((size, size))
+        np.add.at(matrix, (rows, columns), values)
+        inverse = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
+        return inverse @ force, _blocks(inverse)
+    from scipy.sparse import coo_array
+    from scipy.sparse.linalg import splu
+
+    factor = splu(coo_array((values, (rows, columns)), shape=(size, size)).tocsc())
+    blocks = []
+    for start in range(0, size, DENSE):
+        unit = np.eye(size, min(DENSE, size - start), -start)
+        blocks.append(_blocks(factor.solve(unit)[start : start + unit.shape[1]]))
+    return factor.solve(force), np.concatenate(blocks)
+
+
+def _blocks(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the 2 x 2 blocks on the diagonal of a square matrix."""
+    k = np.arange(len(matrix) // 2)
+    return matrix.reshape(len(k), 2, len(k), 2)[k, :, k, :]
