@@ -29,6 +29,7 @@ def follow(robot: Robot, primitive: Follow) -> Control[Outcome]:
         yield from stop(robot)
         front = yield from keep_off(robot, robot.parameters.r0)
     elif change is not None:
+        robot.forget_before(change.began)
         keep = robot.parameters.r0
         reached = yield from go(robot, change.place - robot.odometer, keep)
         reason = change.reason

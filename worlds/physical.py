@@ -80,8 +80,8 @@ class PhysicalBody:
         return self._robot.disc.contacts
 
     @property
-    def pose(self) -> Pose:
-        """Where the robot truly is."""
+    def pose(self) -> tuple[float, float, float]:
+        """True x and y, in metres, and heading, in radians, in the world's frame."""
         return self._robot.pose
 
     def execute(self, primitive: Primitive) -> Outcome:

@@ -155,9 +155,14 @@ class Robot:
         return Readings(ahead, self.left, self.right)
 
     @property
-    def pose(self) -> Pose:
-        """Where it truly is."""
-        return Pose(*self._place)
+    def pose(self) -> tuple[float, float, float]:
+        """True x and y, in metres, and heading, in radians, in the world's frame."""
+        return self._place
+
+    def forget_before(self, odometer: float) -> None:
+        """Forget the side readings that were taken before a place on this leg."""
+        while self.trace and self.trace[0][0] < odometer:
+            self.trace.popleft()
 
     def normal(self) -> float:
         """Draw from the standard normal distribution."""

@@ -33,6 +33,8 @@ class Change:
     """What the odometer shows when the robot's centre is abeam of it, in metres."""
     range: float
     """Distance of what follows, in metres from the centre; may be infinite."""
+    began: float
+    """What the odometer showed when the readings first told of it, in metres."""
 
 
 class WallTrack:
@@ -127,24 +129,29 @@ class WallTrack:
         self.lean_variance -= hq * hq / spread
 
     def _decide(self, expected: float) -> None:
-        """Say what the misfits are and where they began, once they are settled.
+        """Say what the misfits are, once they are settled, and where they began.
 
-        Behind an edge the beam slides down the wall's end face: the readings
-        grow for some centimetres before they tell what is there.
+        Behind an edge the beam slides down the wall's end face: for some
+        centimetres the readings grow before they tell what is there.
         """
-        recent = [z for s, z in self._misfits if s >= self._odometer - self._least]
-        recent = recent[-CONFIRM:]
-        way = self._odometer - self._misfits[0][0]
-        if min(self._misfits[-2:], key=_range)[1] - expected > self._parameters.least_recess:
-            gone = len(self._misfits) >= 2
-            middle = self._misfits[-1][1]
-        elif len(recent)
-        recess = middle - expected
-        lag = self._cone * (min(expected, middle) - self._offset)
-        place = self._misfits[0][0] + self._mount + (lag if recess < 0 else -lag)
-        gone = recess > self._parameters.least_recess
-        reason = Reason.RECEDED if gone else Reason.STEPPED
-        self.change = Change(reason, place, middle)
+        misfits = self._misfits
+        last = [reading for _, reading in misfits[-CONFIRM:]]
+        if min(last[-2:]) - expected > self._parameters.least_recess:
+            reason = Reason.RECEDED
+            is_settled = len(last) >= 2
+        else:
+            reason = Reason.STEPPED
+            is_settled = (
+                len(last) == CONFIRM
+                and max(last) - min(last) < 2 * self._least
+                and misfits[-1][0] - misfits[-CONFIRM][0] > 0.5 * self._least
+            )
+        if is_settled:
+            found = sorted(last)[len(last) // 2]
+            lag = self._cone * (min(expected, found) - self._offset)
+            began = misfits[0][0]
+            place = began + self._mount + (lag if found < expected else -lag)
+            self.change = Change(reason, place, found, began)
 
     def _variance(self, reading: float) -> float:
         """Return the variance of a reading, in squared metres."""
