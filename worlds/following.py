@@ -6,13 +6,17 @@ import math
 
 from behaviours.port import Follow, Outcome, Reason, Side
 from worlds.robot import Robot
-from worlds.straight import NEAR, Control, go, keep_off, pace, settle, stop
+from worlds.straight import NEAR, Control, go, hold, keep_off, pace, settle, stop
 from worlds.wall_track import WallTrack
 
 __all__ = ["follow"]
 
 BEHIND = 0.10
 """How far behind the start, in metres, remembered readings still count."""
+CLOSEST = 0.03
+"""Room, in metres, that the robot leaves behind itself when it looks there."""
+PROWL = 0.08
+"""Speed of looking for a wall, in metres a second."""
 LOOKS = 5
 """Answers in a row that make a hall."""
 
@@ -20,28 +24,32 @@ LOOKS = 5
 def follow(robot: Robot, primitive: Follow) -> Control[Outcome]:
     """Follow a wall at r0."""
     run = _Run(robot, primitive.side)
+    r0 = robot.parameters.r0
+    edge, robot.edge_behind = robot.edge_behind, None
     yield from settle(robot)
     run.begin()
+    if not run.track.is_on_wall:
+        if edge is not None:
+            yield from go(robot, -edge)
+            return run.outcome(Reason.RECEDED)
+        yield from run.look_round()
     reason = yield from run.regulate()
     front = -1.0
     change = run.track.change
-    if reason is Reason.BLOCKED:
-        yield from stop(robot)
-        front = yield from keep_off(robot, robot.parameters.r0)
-    elif change is not None:
+    if change is not None:
         robot.forget_before(change.began)
-        keep = robot.parameters.r0
-        reached = yield from go(robot, change.place - robot.odometer, keep)
-        reason = change.reason
-        if reached is Reason.BLOCKED:
-            reason = reached
-            front = yield from keep_off(robot, keep)
-    else:
+        if (yield from go(robot, change.place - robot.odometer, r0)) is Reason.BLOCKED:
+            reason = Reason.BLOCKED
+    elif run.track.is_on_wall:
         yield from stop(robot)
-        if not run.track.is_on_wall:
-            yield from go(robot, run.start - robot.odometer)
-    distance = max(robot.odometer - run.start, 0.0)
-    return Outcome(distance, reason, robot.readings(front), clearance=run.clearance)
+    else:
+        yield from go(robot, run.start - robot.odometer)
+    if reason is Reason.BLOCKED:
+        beside = run.own(robot.left, robot.right)
+        if beside < robot.parameters.r_min:
+            robot.edge_behind = beside  # debug
+        front = yield from keep_off(robot, r0)
+    return run.outcome(reason, front)
 
 
 class _Run:
@@ -51,38 +59,83 @@ class _Run:
         self.robot = robot
         self.side = side
         self.start = robot.odometer
-        self.track = WallTrack(robot.profile, robot.parameters, side, robot.wander)
+        self.track = self._new_track()
         self.clearance = math.inf
         self._sense = -side.value
         self._narrow: list[float] = []
         self._others: list[float] = []
 
     def begin(self) -> None:
-        """Let the track see what the robot saw on the last steps of this leg."""
+        """Let the track see what the robot saw on the last steps of this leg.
+
+        A wall may have begun and even ended while the robot moved up to it. What
+        gave way to the wall now beside it before the start is forgotten.
+        """
+        robot, lead = self.robot, self.track.mount
+        rows = [row for row in robot.trace if row[0] >= self.start - lead - BEHIND]
+        self._replay(rows)
+        change = self.track.change
+        beside = self.own(robot.left, robot.right)
+        if change and change.place < self.start + BEHIND and beside <= self.track.reach:
+            self.track = self._new_track()
+            self._replay([row for row in rows if row[0] >= change.began])
+
+    def _new_track(self) -> WallTrack:
         robot = self.robot
-        recent = [
-            row for row in robot.trace if row[0] >= self.start - 2 * BEHIND
-        ]
-        odometer, turned = recent[0][:2]
+        return WallTrack(robot.profile, robot.parameters, self.side, robot.wander)
+
+    def _replay(self, rows: list[tuple[float, float, float, float]]) -> None:
+        """Feed the track remembered readings."""
+        robot = self.robot
+        odometer, turned = rows[0][:2]
         lean = robot.lean - (robot.turned - turned)
         self.track.begin(odometer, turned, lean, min(robot.lean_variance, 0.1))
-        for odometer, turned, left, right in recent:
-            self.track.update(odometer, turned, self._own(left, right))
+        for odometer, turned, left, right in rows:
+            self.track.update(odometer, turned, self.own(left, right))
+
+    def outcome(self, reason: Reason, front: float = -1.0) -> Outcome:
+        """Return the outcome of a run that ends where the robot stands."""
+        way = self.robot.odometer - self.start
+        readings = self.robot.readings(front)
+        return Outcome(way, reason, readings, clearance=self.clearance)
+
+    def look_round(self) -> Control[None]:
+        """Look for a wall that begins a little ahead, or ended a little behind.
+
+        Behind an inner corner whose wall is shorter than r0, the wall ends before
+        the robot is abeam of it.
+        """
+        robot, track, lead = self.robot, self.track, self.track.mount
+        ahead = max(min(robot.parameters.least_recess, 0.1) - lead, 0.0)
+        room = robot.parameters.r0 - robot.profile.radius - CLOSEST
+        for place in (ahead, -min(robot.parameters.least_jut + lead + CLOSEST, room)):
+            goal = self.start + place
+            way = 1.0 if goal > robot.odometer else -1.0
+            while not track.is_on_wall and way * (goal - robot.odometer) > NEAR:
+                if way > 0 and robot.ahead - robot.parameters.r0 <= NEAR:
+                    break
+                hold(robot, way * PROWL)
+                yield
+                if robot.is_fresh:
+                    self._look()
+            yield from stop(robot)
+        if track.is_on_wall:
+            back = self.start - room - robot.odometer
+            yield from go(robot, max(back, -CLOSEST))
 
     def regulate(self) -> Control[Reason]:
         """Steer along the wall; return why it ended, still moving."""
         robot, track = self.robot, self.track
         r0 = robot.parameters.r0
-        creep = min(robot.parameters.least_recess, 0.1)
         while True:
-            if robot.ahead - r0 <= NEAR:
-                return Reason.BLOCKED
             if track.change is not None:
                 return track.change.reason
+            if robot.ahead - r0 <= NEAR:
+                return Reason.BLOCKED
+            if not track.is_on_wall:
+                return Reason.RECEDED
             if self._is_narrow():
                 return Reason.NARROWED
-            if not track.is_on_wall and robot.odometer - self.start > creep:
-                return Reason.RECEDED
             self._steer(pace(robot, robot.ahead - r0))
             yield
             if robot.is_fresh:
@@ -101,8 +154,8 @@ class _Run:
     def _look(self) -> None:
         """Let the track see the newest readings, and learn the heading from it."""
         robot, track = self.robot, self.track
-        own = self._own(robot.left, robot.right)
-        other = self._own(robot.right, robot.left)
+        own = self.own(robot.left, robot.right)
+        other = self.own(robot.right, robot.left)
         track.update(robot.odometer, robot.turned, own)
         if track.is_on_wall:
             robot.lean = self._sense * track.lean
@@ -118,6 +171,6 @@ class _Run:
         widest = 2 * self.robot.parameters.r0
         return len(sums) == LOOKS and sum(sums) <= LOOKS * widest
 
-    def _own(self, left: float, right: float) -> float:
+    def own(self, left: float, right: float) -> float:
         """Return the reading on the wall's side."""
         return left if self.side is Side.LEFT else right

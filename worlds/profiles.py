@@ -97,11 +97,11 @@ below r_min = 0.15; got 0.16
     """Between the wheels, in metres."""
     mass: float = 1.0
     """In kilograms."""
-    speed: float = 0.25
+    speed: float = 0.2
     """Going straight, in metres a second."""
     turn_rate: float = 1.5
     """Turning on the spot, in radians a second."""
-    acceleration: float = 0.6
+    acceleration: float = 1.5
     """Most that the wheels give, in metres a second squared."""
     update_period: float = 0.0383
     """Between two readings of the rangers, in seconds."""
@@ -203,7 +203,7 @@ GENERIC5 = replace(
     GENERIC,
     name="generic5",
     rangers=(
-        *GENERIC.rangers,
+        *(replace(ranger, x=0.0) for ranger in GENERIC.rangers),
         replace(SHARP, x=0.0, y=0.0, yaw=math.atan2(0.14, 0.30), cone=math.radians(2)),
         replace(SHARP, x=0.0, y=0.0, yaw=-math.atan2(0.14, 0.30), cone=math.radians(2)),
     ),

@@ -60,6 +60,8 @@ class Robot:
         """Whether the rangers answered anew at this tick."""
         self.trace: deque[tuple[float, float, float, float]] = deque(maxlen=MEMORY)
         """Odometer, turning, left and right at each answer on this leg."""
+        self.edge_behind: float | None = None
+        """How far behind the robot the wall to follow next is known to end, in metres."""
         self.travelled = 0.0
         """True way, in metres."""
         self.wander = self._wander()
@@ -67,7 +69,7 @@ class Robot:
         self._rng = rng
         self._sigma = sigma
         self._normals: list[float] = []
-        self._eyes = Eyes(profile, parameters.r_min, arena, self.disc, self.normal)
+        self.eyes = Eyes(profile, parameters.r_min, arena, self.disc, self.normal)
         self._place = (start.x, start.y, start.heading)
         self._wheels = (0.0, 0.0)
         self._target = (0.0, 0.0)
@@ -151,7 +153,7 @@ class Robot:
 
     def readings(self, front: float = -1.0) -> Readings:
         """Return the newest readings; with `front`, what is known of the front."""
-        ahead = self._eyes.front if front < 0 else front
+        ahead = self.eyes.front if front < 0 else front
         return Readings(ahead, self.left, self.right)
 
     @property
@@ -172,7 +174,7 @@ class Robot:
 
     def _look(self) -> None:
         """Take new ranges and track the clearance ahead."""
-        eyes = self._eyes
+        eyes = self.eyes
         eyes.look(*self._place)
         self.left, self.right = eyes.left, eyes.right
         self.trace.append((self.odometer, self.turned, eyes.left, eyes.right))

@@ -18,9 +18,6 @@ __all__ = ["SeenWall", "wall_of_scan"]
 
 FEWEST = 6
 """Readings that a fit of one wall needs."""
-STEEPEST = math.radians(75)
-"""A wall seen more aslant than this, in radians, is not the one beside."""
-
 
 @dataclass(frozen=True, slots=True)
 class SeenWall:
@@ -29,7 +26,11 @@ class SeenWall:
     normal: float
     """Angle of the way to it, in radians, counter-clockwise in the scan's frame."""
     distance: float
-    """Along the normal, in metres."""
+    """Of its line along the normal, in metres."""
+    variance: float
+    """Of `normal`, in squared radians."""
+    behind: float | None = None
+    """How far back along it an outer corner ends it, in metres, if one does."""
 
 
 def wall_of_scan(
@@ -56,29 +57,46 @@ def wall_of_scan(
     Notes
     -----
     O(n**2) for n readings: two walls are tried at each place where they may meet.
+    Two walls stand at right angles, so that both tell the direction of each.
+
+    Examples
+    --------
+    A wall half a metre ahead, squarely:
+
+    >>> scan = [(a / 10, 0.5 / math.cos(a / 10)) for a in range(-5, 6)]
+    >>> wall = wall_of_scan(scan, 0.05, Side.RIGHT)
+    >>> round(wall.normal, 9), round(wall.distance, 9)
+    (0.0, 0.5)
     """
     if len(scan) < FEWEST:
         return None
     points = [(math.cos(a), math.sin(a), 1.0 / r) for a, r in scan]
-    one, misfit = _fit(points)
-    best = None
-    for k in range(FEWEST, len(points) - FEWEST + 1):
-        first, left_over = _fit(points[:k])
-        second, more = _fit(points[k:])
-        if best is None or left_over + more < best[0]:
-            best = (left_over + more, first, second, scan[k][0])
-    spread = (len(points) - 2) * error * error
-    if best is None or misfit <= 2.0 * spread or best[0] > 0.5 * misfit:
+    one, misfit = _fit(points, error)
+    splits = range(FEWEST, len(points) - FEWEST + 1)
+    pairs = [(_fit(points[:k], error), _fit(points[k:], error), k) for k in splits]
+    if not pairs or misfit <= 2.0 * (len(points) - 2) * error * error:
         return one
-    _, first, second, meeting = best
-    if first.normal > meeting > second.normal:  # an outer corner
-        chosen = first if side is Side.RIGHT else second
-    else:
-        chosen = min(first, second, key=lambda wall: wall.distance)
-    return chosen if abs(chosen.normal) <= STEEPEST else one
+    (first, left), (second, right), k = min(pairs, key=lambda p: p[0][1] + p[1][1])
+    if left + right > 0.5 * misfit:
+        return one
+    is_outer = first.normal > scan[k][0] > second.normal
+    quarter = -math.pi / 2 if is_outer else math.pi / 2
+    share = second.variance / (first.variance + second.variance)
+    normal = share * first.normal + (1.0 - share) * (second.normal - quarter)
+    variance = share * first.variance
+    near = _distance(points[:k], normal), _distance(points[k:], normal + quarter)
+    takes_first = side is Side.RIGHT if is_outer else near[0] <= near[1]
+    return SeenWall(
+        normal if takes_first else normal + quarter,
+        near[0] if takes_first else near[1],
+        variance,
+        (near[1] if takes_first else near[0]) if is_outer else None,
+    )
 
 
-def _fit(points: Sequence[tuple[float, float, float]]) -> tuple[SeenWall, float]:
+def _fit(
+    points: Sequence[tuple[float, float, float]], error: float
+) -> tuple[SeenWall, float]:
     """Return the wall of least squares through (cos, sin, 1 / range), and its misfit."""
     cc = cs = ss = cr = sr = rr = 0.0
     for c, s, inverse in points:
@@ -86,5 +104,14 @@ def _fit(points: Sequence[tuple[float, float, float]]) -> tuple[SeenWall, float]
         cr, sr, rr = cr + c * inverse, sr + s * inverse, rr + inverse * inverse
     det = cc * ss - cs * cs
     a, b = (cr * ss - sr * cs) / det, (sr * cc - cr * cs) / det
-    wall = SeenWall(math.atan2(b, a), 1.0 / math.hypot(a, b))
+    square = a * a + b * b
+    spread = (b * b * ss + 2 * a * b * cs + a * a * cc) / (det * square * square)
+    wall = SeenWall(math.atan2(b, a), 1.0 / math.sqrt(square), error * error * spread)
     return wall, max(rr - a * cr - b * sr, 0.0)
+
+
+def _distance(points: Sequence[tuple[float, float, float]], normal: float) -> float:
+    """Return the distance of a wall whose normal is known."""
+    cos, sin = math.cos(normal), math.sin(normal)
+    along = [(c * cos + s * sin, inverse) for c, s, inverse in points]
+    return sum(c * c for c, _ in along) / sum(c * inverse for c, inverse in along)

@@ -16,14 +16,18 @@ if TYPE_CHECKING:
 
 __all__ = ["Eyes", "ray_table"]
 
+STRAIGHT = 0.95
+"""Cosine of the yaw up to which a ranger looks straight ahead."""
+
 
 class Eyes:
     """The rangers of one robot, read all at once.
 
     `front` is the distance ahead of the centre of the nearest point seen in the
     swath, r_min to either side of the centre line, by whatever ranger;
-    `left` and `right` are those of the rangers that look sideways. All in
-    metres from the centre, infinite where nothing is seen.
+    `beam` is what a ranger sees straight ahead; `left` and `right` are those of
+    the rangers that look sideways. All in metres from the centre, infinite where
+    nothing is seen.
     """
 
     def __init__(
@@ -36,7 +40,7 @@ class Eyes:
     ) -> None:
         from worlds.rays import cast
 
-        self.front = self.left = self.right = math.inf
+        self.front = self.beam = self.left = self.right = math.inf
         self._arena = arena
         self._row = disc.row
         self._normal = normal
@@ -53,7 +57,7 @@ class Eyes:
             *(x, y, heading, self._rays, arena.walls),
             *(arena.places, self._row, ranges),
         )
-        front = left = right = math.inf
+        front = beam = left = right = math.inf
         swath = self._swath
         for reading, optics in zip(ranges.tolist(), self._optics, strict=True):
             if reading == math.inf:
@@ -69,11 +73,13 @@ class Eyes:
             aside = mount_y + sin * reading
             if ahead > 0.0 and -swath < aside < swath and ahead < front:
                 front = ahead
-            if side > 0 and aside < left:
-                left = aside
-            elif side < 0 and -aside < right:
-                right = -aside
-        self.front, self.left, self.right = front, left, right
+            if side > 0:
+                left = min(left, aside)
+            elif side < 0:
+                right = min(right, -aside)
+            elif cos > STRAIGHT:
+                beam = min(beam, ahead)
+        self.front, self.beam, self.left, self.right = front, beam, left, right
 
 
 def ray_table(rangers: tuple[Ranger, ...]) -> NDArray[np.float64]:

@@ -16,8 +16,8 @@ SWEEP = math.radians(50)
 """A wall to square up with is looked for so far to either side, in radians."""
 SURE = 0.05**2
 """Below this variance, in squared radians, the heading needs no sweep."""
-SQUARE = 0.015
-"""Deviation of the heading after a sweep, in radians."""
+SQUARE = 0.01
+"""Deviation of the heading after an exact sweep, in radians."""
 CLOSE = 0.02
 """An offset nearer to r0 than this, in metres, is left to following."""
 
@@ -101,7 +101,7 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
     while robot.turned < goal:
         robot.drive(0.0, 0.5 * robot.profile.turn_rate)
         yield
-        if robot.is_fresh and (reading := robot.readings().front) < math.inf:
+        if robot.is_fresh and (reading := robot.eyes.beam) < math.inf:
             scan.append((robot.turned - axis, reading))
     yield from stop(robot)
     wall = wall_of_scan(scan, _inverse_error(robot), side)
@@ -109,8 +109,9 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
         yield from spin(robot, axis - robot.turned)
         return math.inf
     yield from spin(robot, axis + wall.normal - robot.turned)
-    robot.lean, robot.lean_variance = 0.0, SQUARE**2
+    robot.lean, robot.lean_variance = 0.0, wall.variance + SQUARE**2
     robot.begin_leg()
+    robot.edge_behind = wall.behind
     yield from settle(robot)
     return wall.distance
 

@@ -54,7 +54,8 @@ class WallTrack:
         """In squared radians."""
         self.change: Change | None = None
         self._sense = -side.value
-        self._mount = ranger.x
+        self.mount = ranger.x
+        """How far ahead of the centre the side ranger sits, in metres."""
         self._offset = abs(ranger.y)
         self._cone = math.tan(ranger.cone)
         self._noise = ranger.noise, ranger.noise_growth
@@ -64,7 +65,9 @@ class WallTrack:
         self._pdd = self._pdq = 0.0
         self._odometer = self._turned = 0.0
         self._misfits: list[tuple[float, float]] = []
-        self._seeds: list[tuple[float, float]] = []
+        self._seeds: list[float] = []
+        self.reach = parameters.r_max + self._least
+        """Farthest, in metres, that a wall is taken up."""
 
     @property
     def is_on_wall(self) -> bool:
@@ -88,29 +91,28 @@ class WallTrack:
         self.lean += turn
         self.lean_variance += self._wander * abs(way)
         if not self.is_on_wall:
-            self._look_for_wall(odometer, reading)
+            self._look_for_wall(reading)
         elif self.change is None:
             self._correct(way, reading)
 
-    def _look_for_wall(self, odometer: float, reading: float) -> None:
+    def _look_for_wall(self, reading: float) -> None:
         """Start the filter once a few readings agree on a wall in reach."""
-        reach = self._parameters.r_max + self._least
-        if reading > reach or (
-            self._seeds and abs(reading - self._seeds[-1][1]) > 2 * self._least
+        self._seeds = [*self._seeds[1 - SEED :], reading]
+        spread = max(self._seeds) - min(self._seeds)
+        mean = sum(self._seeds) / len(self._seeds)
+        if (
+            len(self._seeds) == SEED
+            and mean <= self.reach
+            and spread <= max(self._least, 4.0 * math.sqrt(self._variance(mean)))
         ):
-            self._seeds.clear()
-        if reading <= reach:
-            self._seeds.append((odometer, reading))
-        if len(self._seeds) == SEED:
-            mean = sum(z for _, z in self._seeds) / SEED
-            self.distance = mean - self._mount * self.lean
+            self.distance = mean - self.mount * self.lean
             self._pdd = self._variance(mean) / SEED
-            self._pdd += self._mount**2 * self.lean_variance
-            self._pdq = -self._mount * self.lean_variance
+            self._pdd += self.mount**2 * self.lean_variance
+            self._pdq = -self.mount * self.lean_variance
 
     def _correct(self, way: float, reading: float) -> None:
         """Correct distance and heading, or count a misfit."""
-        mount = self._mount
+        mount = self.mount
         expected = self.distance + mount * self.lean
         misfit = reading - expected
         noise = self._variance(min(reading, expected))
@@ -150,7 +152,7 @@ class WallTrack:
             found = sorted(last)[len(last) // 2]
             lag = self._cone * (min(expected, found) - self._offset)
             began = misfits[0][0]
-            place = began + self._mount + (lag if found < expected else -lag)
+            place = began + self.mount + (lag if found < expected else -lag)
             self.change = Change(reason, place, found, began)
 
     def _variance(self, reading: float) -> float:
