@@ -13,6 +13,12 @@ __all__ = ["follow"]
 
 BEHIND = 0.10
 """How far behind the start, in metres, remembered readings still count."""
+START = 0.05
+"""A change less than this past the start, in metres, is the wall's beginning."""
+STRAIGHT = 0.03
+"""So far, in metres, the robot goes straight on before it steers by the wall."""
+DOUBT = 0.3
+"""Most that a heading may be in doubt, in radians, to follow."""
 CLOSEST = 0.03
 """Room, in metres, that the robot leaves behind itself when it looks there."""
 PROWL = 0.08
@@ -33,6 +39,9 @@ def follow(robot: Robot, primitive: Follow) -> Control[Outcome]:
             yield from go(robot, -edge)
             return run.outcome(Reason.RECEDED)
         yield from run.look_round()
+        if not run.track.is_on_wall:
+            yield from go(robot, run.start - robot.odometer)
+            return run.outcome(Reason.RECEDED)
     reason = yield from run.regulate()
     front = -1.0
     change = run.track.change
@@ -68,17 +77,23 @@ class _Run:
     def begin(self) -> None:
         """Let the track see what the robot saw on the last steps of this leg.
 
-        A wall may have begun and even ended while the robot moved up to it. What
-        gave way to the wall now beside it before the start is forgotten.
+        A wall may have begun and even ended while the robot moved up to it.
         """
-        robot, lead = self.robot, self.track.mount
-        rows = [row for row in robot.trace if row[0] >= self.start - lead - BEHIND]
-        self._replay(rows)
+        first = self.start - self.track.mount - BEHIND
+        self._replay([row for row in self.robot.trace if row[0] >= first])
+        self._settle_start()
+
+    def _settle_start(self) -> None:
+        """Forget a change at the very start if there is a wall beside after it."""
         change = self.track.change
-        beside = self.own(robot.left, robot.right)
-        if change and change.place < self.start + BEHIND and beside <= self.track.reach:
+        beside = self.own(self.robot.left, self.robot.right)
+        if (
+            change is not None
+            and change.place < self.start + START
+            and beside <= self.track.reach
+        ):
             self.track = self._new_track()
-            self._replay([row for row in rows if row[0] >= change.began])
+            self._replay([row for row in self.robot.trace if row[0] >= change.began])
 
     def _new_track(self) -> WallTrack:
         robot = self.robot
@@ -89,7 +104,7 @@ class _Run:
         robot = self.robot
         odometer, turned = rows[0][:2]
         lean = robot.lean - (robot.turned - turned)
-        self.track.begin(odometer, turned, lean, min(robot.lean_variance, 0.1))
+        self.track.begin(odometer, turned, lean, min(robot.lean_variance, DOUBT**2))
         for odometer, turned, left, right in rows:
             self.track.update(odometer, turned, self.own(left, right))
 
@@ -125,14 +140,16 @@ class _Run:
 
     def regulate(self) -> Control[Reason]:
         """Steer along the wall; return why it ended, still moving."""
-        robot, track = self.robot, self.track
+        robot = self.robot
         r0 = robot.parameters.r0
         while True:
-            if track.change is not None:
-                return track.change.reason
+            if self.track.change is not None:
+                self._settle_start()
+            if self.track.change is not None:
+                return self.track.change.reason
             if robot.ahead - r0 <= NEAR:
                 return Reason.BLOCKED
-            if not track.is_on_wall:
+            if not self.track.is_on_wall and robot.odometer > self.start + BEHIND:
                 return Reason.RECEDED
             if self._is_narrow():
                 return Reason.NARROWED
@@ -146,7 +163,7 @@ class _Run:
         robot, track = self.robot, self.track
         lean = self._sense * robot.lean
         wish = 0.0
-        if track.is_on_wall:
+        if track.is_on_wall and robot.odometer - self.start > STRAIGHT:
             gain = 1.0 / robot.parameters.r0
             wish = -min(max(gain * (track.distance - robot.parameters.r0), -0.2), 0.2)
         robot.drive(speed, self._sense * min(max(4.0 * (wish - lean), -1.0), 1.0))

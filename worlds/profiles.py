@@ -4,7 +4,7 @@ Sources of the default figures. Sharp GP2Y0A21YK0F, data sheet E4-A00201EN:
 10 to 80 cm, a new value every 38.3 ms; the output falls about as
 27.9 V / (distance in cm)**1.15, so that 10 mV of noise on it are
 0.05 r**2 metres at a range of r metres, half a centimetre at 30 cm. Its spot
-is some 10 degrees wide. e-puck: Mondada et al., "The e-puck, a robot designed
+is some 6 degrees wide. e-puck: Mondada et al., "The e-puck, a robot designed
 for education in engineering", 2009: 7 cm across, wheels 5.3 cm apart, eight
 infrared proximity sensors. Calibrated wheel odometry of such robots errs by
 a few per cent of the way and about 1 degree a metre (Borenstein and Feng,
@@ -40,8 +40,9 @@ class ProfileError(ValueError):
 class Ranger:
     """An infrared ranger: where it sits, what it sees, how well.
 
-    It answers the least range over its rays. A target nearer than `near` is
-    seen at `near`; one beyond `far` is not seen.
+    It answers the harmonic mean over its rays, as the spot of light on its strip
+    does. A target nearer than `near` is seen at `near`; one beyond `far` is not
+    seen.
     """
 
     x: float
@@ -54,7 +55,7 @@ class Ranger:
     """Least range, in metres from the mount."""
     far: float = 0.80
     """Greatest range, in metres from the mount."""
-    cone: float = math.radians(5)
+    cone: float = math.radians(3)
     """Half angle of the beam, in radians."""
     rays: int = 3
     """How many rays are spread evenly over the beam, the edges included."""

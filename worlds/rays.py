@@ -1,7 +1,7 @@
 """How far rays go before they meet a wall or a robot, compiled.
 
-It answers exactly what `pymunk.Space.segment_query_first` answers for walls of
-no thickness and round bodies, some fifty times faster.
+Each ray goes exactly as far as `pymunk.Space.segment_query_first` says for
+walls of no thickness and round bodies, in a fraction of the time.
 """
 
 from __future__ import annotations
@@ -26,7 +26,11 @@ def cast(
     own: int,
     ranges: NDArray[np.float64],
 ) -> None:
-    """Write into `ranges` the least range over the rays of each ranger.
+    """Write the range that each ranger sees: the harmonic mean over its rays.
+
+    A triangulating ranger sees the mean place of its spot on a strip, and that
+    place is proportional to the inverse of the range. Rays that meet nothing
+    leave no light.
 
     Parameters
     ----------
@@ -49,14 +53,15 @@ def cast(
     -----
     O(M (W + K)).
     """
-    ranges[:] = np.inf
+    ranges[:] = 0.0
+    lit = np.zeros(ranges.shape[0])
     c, s = math.cos(heading), math.sin(heading)
     for m in range(rays.shape[0]):
         ox = x + c * rays[m, 1] - s * rays[m, 2]
         oy = y + s * rays[m, 1] + c * rays[m, 2]
         dx, dy = math.cos(heading + rays[m, 3]), math.sin(heading + rays[m, 3])
         k = int(rays[m, 0])
-        least = min(ranges[k], rays[m, 4])
+        least = rays[m, 4]
         met = False
         for w in range(walls.shape[0]):
             ax, ay = walls[w, 0] - ox, walls[w, 1] - oy
@@ -77,4 +82,7 @@ def cast(
                     if 0.0 <= t <= least:
                         least, met = t, True
         if met:
-            ranges[k] = least
+            ranges[k] += 1.0 / max(least, 1e-9)
+            lit[k] += 1.0
+    for k in range(ranges.shape[0]):
+        ranges[k] = lit[k] / ranges[k] if lit[k] else np.inf

@@ -150,9 +150,12 @@ class WallTrack:
             )
         if is_settled:
             found = sorted(last)[len(last) // 2]
-            lag = self._cone * (min(expected, found) - self._offset)
+            spot = self._cone * (min(expected, found) - self._offset)
+            # Against a background the spot's front rim tells first; before nothing
+            # at all, or sliding down an end face, its rear rim tells last.
+            is_dark = last[-1] == math.inf or last[-1] - last[-2] > 2 * self._least
             began = misfits[0][0]
-            place = began + self.mount + (lag if found < expected else -lag)
+            place = began + self.mount + (-spot if is_dark else spot)
             self.change = Change(reason, place, found, began)
 
     def _variance(self, reading: float) -> float:
