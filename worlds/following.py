@@ -11,18 +11,16 @@ from worlds.wall_track import WallTrack
 
 __all__ = ["follow"]
 
-BEHIND = 0.10
-"""How far behind the start, in metres, remembered readings still count."""
-START = 0.05
-"""A change less than this past the start, in metres, is the wall's beginning."""
-STRAIGHT = 0.03
-"""So far, in metres, the robot goes straight on before it steers by the wall."""
+BEHIND = 1 / 3
+"""How far behind the start remembered readings still count, in parts of r0."""
+START = 1 / 6
+"""A change less than this past the start is the wall's beginning, in parts of r0."""
+STRAIGHT = 0.1
+"""So far the robot goes straight on before it steers by the wall, in parts of r0."""
+CLOSEST = 0.1
+"""Room that the robot leaves behind itself when it looks there, in parts of r0."""
 DOUBT = 0.3
 """Most that a heading may be in doubt, in radians, to follow."""
-CLOSEST = 0.03
-"""Room, in metres, that the robot leaves behind itself when it looks there."""
-PROWL = 0.08
-"""Speed of looking for a wall, in metres a second."""
 LOOKS = 5
 """Answers in a row that make a hall."""
 
@@ -47,16 +45,18 @@ def follow(robot: Robot, primitive: Follow) -> Control[Outcome]:
     change = run.track.change
     if change is not None:
         robot.forget_before(change.began)
-        if (yield from go(robot, change.place - robot.odometer, r0)) is Reason.BLOCKED:
-            reason = Reason.BLOCKED
-    elif run.track.is_on_wall:
+        robot.stepped_to = change.range
+    place = run.narrow_place if reason is Reason.NARROWED else None
+    if reason is not Reason.BLOCKED and change is not None:
+        place = change.place
+    if place is None:
         yield from stop(robot)
-    else:
-        yield from go(robot, run.start - robot.odometer)
+    elif (yield from go(robot, place - robot.odometer, r0)) is Reason.BLOCKED:
+        reason = Reason.BLOCKED
     if reason is Reason.BLOCKED:
         beside = run.own(robot.left, robot.right)
         if beside < robot.parameters.r_min:
-            robot.edge_behind = beside  # debug
+            robot.edge_behind = beside
         front = yield from keep_off(robot, r0)
     return run.outcome(reason, front)
 
@@ -71,6 +71,9 @@ class _Run:
         self.track = self._new_track()
         self.clearance = math.inf
         self._sense = -side.value
+        self.narrow_place: float | None = None
+        """What the odometer shows abeam of where a hall seems to begin, in metres."""
+        self._r0 = robot.parameters.r0
         self._narrow: list[float] = []
         self._others: list[float] = []
 
@@ -79,7 +82,7 @@ class _Run:
 
         A wall may have begun and even ended while the robot moved up to it.
         """
-        first = self.start - self.track.mount - BEHIND
+        first = self.start - self.track.mount - BEHIND * self._r0
         self._replay([row for row in self.robot.trace if row[0] >= first])
         self._settle_start()
 
@@ -89,7 +92,7 @@ class _Run:
         beside = self.own(self.robot.left, self.robot.right)
         if (
             change is not None
-            and change.place < self.start + START
+            and change.place < self.start + START * self._r0
             and beside <= self.track.reach
         ):
             self.track = self._new_track()
@@ -121,27 +124,28 @@ class _Run:
         the robot is abeam of it.
         """
         robot, track, lead = self.robot, self.track, self.track.mount
-        ahead = max(min(robot.parameters.least_recess, 0.1) - lead, 0.0)
-        room = robot.parameters.r0 - robot.profile.radius - CLOSEST
-        for place in (ahead, -min(robot.parameters.least_jut + lead + CLOSEST, room)):
+        closest = CLOSEST * self._r0
+        ahead = max(BEHIND * self._r0 - lead, 0.0)
+        room = self._r0 - robot.profile.radius - closest
+        for place in (ahead, -min(robot.parameters.least_jut + lead + closest, room)):
             goal = self.start + place
             way = 1.0 if goal > robot.odometer else -1.0
             while not track.is_on_wall and way * (goal - robot.odometer) > NEAR:
-                if way > 0 and robot.ahead - robot.parameters.r0 <= NEAR:
+                if way > 0 and robot.ahead - self._r0 <= NEAR:
                     break
-                hold(robot, way * PROWL)
+                hold(robot, way * 0.4 * robot.profile.speed)
                 yield
                 if robot.is_fresh:
                     self._look()
             yield from stop(robot)
-        if track.is_on_wall:
+        if track.is_on_wall and robot.odometer < self.start:
             back = self.start - room - robot.odometer
-            yield from go(robot, max(back, -CLOSEST))
+            yield from go(robot, max(back, -closest))
 
     def regulate(self) -> Control[Reason]:
         """Steer along the wall; return why it ended, still moving."""
         robot = self.robot
-        r0 = robot.parameters.r0
+        r0 = self._r0
         while True:
             if self.track.change is not None:
                 self._settle_start()
@@ -149,7 +153,7 @@ class _Run:
                 return self.track.change.reason
             if robot.ahead - r0 <= NEAR:
                 return Reason.BLOCKED
-            if not self.track.is_on_wall and robot.odometer > self.start + BEHIND:
+            if not self.track.is_on_wall and robot.odometer > self.start + BEHIND * r0:
                 return Reason.RECEDED
             if self._is_narrow():
                 return Reason.NARROWED
@@ -163,9 +167,9 @@ class _Run:
         robot, track = self.robot, self.track
         lean = self._sense * robot.lean
         wish = 0.0
-        if track.is_on_wall and robot.odometer - self.start > STRAIGHT:
-            gain = 1.0 / robot.parameters.r0
-            wish = -min(max(gain * (track.distance - robot.parameters.r0), -0.2), 0.2)
+        if track.is_on_wall and robot.odometer - self.start > STRAIGHT * self._r0:
+            offset = track.distance / self._r0 - 1.0
+            wish = -min(max(offset, -0.2), 0.2)
         robot.drive(speed, self._sense * min(max(4.0 * (wish - lean), -1.0), 1.0))
 
     def _look(self) -> None:
@@ -178,15 +182,21 @@ class _Run:
             robot.lean = self._sense * track.lean
             robot.lean_variance = track.lean_variance
         self._others = [*self._others[-2:], other]
-        self.clearance = min(self.clearance, sorted(self._others)[len(self._others) // 2])
+        self.clearance = min(
+            self.clearance, sorted(self._others)[len(self._others) // 2]
+        )
+        is_narrow = track.distance + other <= 2 * self._r0
+        if not is_narrow or self.narrow_place is None:
+            self.narrow_place = robot.odometer + track.mount if is_narrow else None
         self._narrow.append(track.distance + other)
 
     def _is_narrow(self) -> bool:
         """Return whether walls on both sides are at most 2 r0 apart."""
         sums = self._narrow[-LOOKS:]
         self._narrow = sums
-        widest = 2 * self.robot.parameters.r0
-        return len(sums) == LOOKS and sum(sums) <= LOOKS * widest
+        if self.narrow_place is None or len(sums) < LOOKS:
+            return False
+        return sum(sums) <= LOOKS * 2 * self._r0
 
     def own(self, left: float, right: float) -> float:
         """Return the reading on the wall's side."""

@@ -13,7 +13,16 @@ from typing import Any
 import numpy as np
 
 from behaviours.parameters import Parameters
-from behaviours.port import Align, Approach, Follow, Move, Outcome, Primitive, Reason, Turn
+from behaviours.port import (
+    Align,
+    Approach,
+    Follow,
+    Move,
+    Outcome,
+    Primitive,
+    Reason,
+    Turn,
+)
 from worlds.arena import Arena
 from worlds.following import follow
 from worlds.pose import Pose
@@ -33,8 +42,8 @@ CONTROLLERS: dict[type, Callable[[Robot, Any], Control[Outcome]]] = {
 }
 PATIENCE = 1800.0
 """Seconds after which a primitive that has not ended is stuck."""
-RECOIL = 0.05
-"""How far the robot goes back from what it touched, in metres."""
+RECOIL = 1 / 6
+"""How far the robot goes back from what it touched, in parts of r0."""
 
 
 class PhysicalBody:
@@ -95,6 +104,10 @@ class PhysicalBody:
     def begin(self, primitive: Primitive) -> None:
         """Take up a primitive."""
         controller = CONTROLLERS[type(primitive)]
+        if not isinstance(primitive, Align):
+            self._robot.stepped_to = None
+        if not isinstance(primitive, (Turn, Follow)):
+            self._robot.edge_behind = None
         self._control = controller(self._robot, primitive)
         self._start = self._robot.odometer
         self._since = self._arena.clock
@@ -127,7 +140,7 @@ class PhysicalBody:
 
     def _recoil(self) -> Control[Outcome]:
         robot = self._robot
-        back = -RECOIL if robot.speed_asked >= 0 else RECOIL
+        back = -math.copysign(RECOIL * self._parameters.r0, robot.speed_asked)
         yield from stop(robot)
         yield from go(robot, back)
         reason = Reason.STUCK if robot.disc.touching else Reason.BUMPED

@@ -18,7 +18,15 @@ from dataclasses import dataclass, fields, replace
 
 from behaviours.parameters import Parameters
 
-__all__ = ["EPUCK", "GENERIC", "GENERIC5", "PROFILES", "Profile", "ProfileError", "Ranger"]
+__all__ = [
+    "EPUCK",
+    "GENERIC",
+    "GENERIC5",
+    "PROFILES",
+    "Profile",
+    "ProfileError",
+    "Ranger",
+]
 
 
 class ProfileError(ValueError):

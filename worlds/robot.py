@@ -15,7 +15,7 @@ from behaviours.parameters import Parameters
 from behaviours.port import Readings
 from worlds.arena import Arena
 from worlds.pose import Pose
-from worlds.profiles import Profile
+from worlds.profiles import Profile, looks_along
 from worlds.sensors import Eyes
 
 __all__ = ["Robot"]
@@ -24,8 +24,8 @@ CLIP = 2.5
 """Errors of a leg or a turn are drawn up to so many standard deviations."""
 MEMORY = 64
 """Side readings that the robot keeps of the present leg."""
-AGREE = 0.05
-"""Ranges ahead that differ by more, in metres, are of different things."""
+AGREE = 1 / 6
+"""Ranges ahead that differ by more, in parts of r0, are of different things."""
 
 
 class Robot:
@@ -62,6 +62,12 @@ class Robot:
         """Odometer, turning, left and right at each answer on this leg."""
         self.edge_behind: float | None = None
         """How far behind the robot the wall to follow next is known to end, in metres."""
+        self.stepped_to: float | None = None
+        """How far the followed wall is after a step just noticed, in metres."""
+        self.side_lead = next(
+            r.x for r in profile.rangers if looks_along(r, math.pi / 2)
+        )
+        """How far ahead of the centre the side rangers sit, in metres."""
         self.travelled = 0.0
         """True way, in metres."""
         self.wander = self._wander()
@@ -181,7 +187,7 @@ class Robot:
         gap = eyes.front - self.ahead
         if math.isnan(gap):
             return
-        if abs(gap) <= AGREE:
+        if abs(gap) <= AGREE * self.parameters.r0:
             self._seen += 1
             self.ahead += gap / min(self._seen, 6)
             self._missed = 0

@@ -18,6 +18,9 @@ __all__ = ["SeenWall", "wall_of_scan"]
 
 FEWEST = 6
 """Readings that a fit of one wall needs."""
+STEEPEST = math.radians(75)
+"""Walls of an inner corner whose normals lie farther aside are not two walls."""
+
 
 @dataclass(frozen=True, slots=True)
 class SeenWall:
@@ -85,6 +88,8 @@ def wall_of_scan(
     normal = share * first.normal + (1.0 - share) * (second.normal - quarter)
     variance = share * first.variance
     near = _distance(points[:k], normal), _distance(points[k:], normal + quarter)
+    if not is_outer and max(abs(normal), abs(normal + quarter)) > STEEPEST:
+        return one
     takes_first = side is Side.RIGHT if is_outer else near[0] <= near[1]
     return SeenWall(
         normal if takes_first else normal + quarter,

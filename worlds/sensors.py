@@ -25,8 +25,8 @@ class Eyes:
 
     `front` is the distance ahead of the centre of the nearest point seen in the
     swath, r_min to either side of the centre line, by whatever ranger;
-    `beam` is what a ranger sees straight ahead; `left` and `right` are those of
-    the rangers that look sideways. All in metres from the centre, infinite where
+    `beam` is the mean of what looks straight ahead; `left` and `right` are the
+    least of what looks sideways. All in metres from the centre, infinite where
     nothing is seen.
     """
 
@@ -57,7 +57,8 @@ class Eyes:
             *(x, y, heading, self._rays, arena.walls),
             *(arena.places, self._row, ranges),
         )
-        front = beam = left = right = math.inf
+        front = left = right = math.inf
+        beams: list[float] = []
         swath = self._swath
         for reading, optics in zip(ranges.tolist(), self._optics, strict=True):
             if reading == math.inf:
@@ -78,8 +79,9 @@ class Eyes:
             elif side < 0:
                 right = min(right, -aside)
             elif cos > STRAIGHT:
-                beam = min(beam, ahead)
-        self.front, self.beam, self.left, self.right = front, beam, left, right
+                beams.append(ahead)
+        self.front, self.left, self.right = front, left, right
+        self.beam = sum(beams) / len(beams) if beams else math.inf
 
 
 def ray_table(rangers: tuple[Ranger, ...]) -> NDArray[np.float64]:

@@ -9,7 +9,7 @@ from typing import TypeAlias, TypeVar
 from behaviours.port import Approach, Direction, Move, Outcome, Reason, Sensor
 from worlds.robot import Robot
 
-__all__ = ["Control", "approach", "go", "hold", "move", "settle", "stop"]
+__all__ = ["SURE", "Control", "approach", "go", "hold", "move", "settle", "stop"]
 
 T = TypeVar("T")
 Control: TypeAlias = Generator[None, None, T]
@@ -19,6 +19,8 @@ NEAR = 0.003
 """A place is reached within so many metres."""
 CREEP = 0.02
 """Slowest speed ahead, in metres a second."""
+SURE = 0.05**2
+"""Below this variance, in squared radians, a heading is known."""
 LOOKS = 3
 """Answers of the rangers that a robot waits for to be sure."""
 
@@ -101,7 +103,7 @@ def approach(robot: Robot, primitive: Approach) -> Control[Outcome]:
     limit_ahead = max(keep, within) if look_ahead else keep
     start = robot.odometer
     yield from settle(robot)
-    hits = 0
+    hits, place, aside = 0, start, False
     reason = Reason.DONE
     while (remaining := primitive.limit - way * (robot.odometer - start)) > NEAR:
         if forward and robot.ahead - limit_ahead <= NEAR:
@@ -110,14 +112,19 @@ def approach(robot: Robot, primitive: Approach) -> Control[Outcome]:
             break
         if robot.is_fresh:
             hits = hits + 1 if _sees_aside(robot, primitive) else 0
+            if hits == 1:
+                place = robot.odometer + robot.side_lead
         if hits >= 2 or (robot.is_still and hits):
             reason = Reason.SEEN
+            aside = robot.lean_variance < SURE and not robot.is_still
             break
         if forward:
             remaining = min(remaining, robot.ahead - limit_ahead)
         hold(robot, way * pace(robot, remaining))
         yield
     yield from stop(robot)
+    if aside:
+        yield from go(robot, place - robot.odometer, keep)
     front = -1.0
     if forward and reason is not Reason.DONE and robot.ahead <= limit_ahead + 0.02:
         front = yield from keep_off(robot, limit_ahead)

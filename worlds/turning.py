@@ -5,21 +5,21 @@ from __future__ import annotations
 import math
 
 from behaviours.port import Align, Outcome, Reason, Side, Turn
-from worlds.profiles import looks_along
+from worlds.profiles import Ranger, looks_along
 from worlds.robot import Robot
 from worlds.scan import wall_of_scan
-from worlds.straight import Control, go, settle, stop
+from worlds.straight import SURE, Control, go, settle, stop
 
 __all__ = ["align", "turn"]
 
 SWEEP = math.radians(50)
 """A wall to square up with is looked for so far to either side, in radians."""
-SURE = 0.05**2
-"""Below this variance, in squared radians, the heading needs no sweep."""
 SQUARE = 0.01
 """Deviation of the heading after an exact sweep, in radians."""
-CLOSE = 0.02
-"""An offset nearer to r0 than this, in metres, is left to following."""
+REACH = 0.85
+"""Part of its range in which a ranger sees all of its spot on a slanted wall."""
+CLOSE = 1 / 15
+"""An offset nearer to r0 than this, in parts of r0, is left to following."""
 
 
 def spin(robot: Robot, angle: float) -> Control[None]:
@@ -62,16 +62,18 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
     yield from settle(robot)
     known = robot.lean_variance < SURE
     beside = yield from _mean_side(robot, side)
-    if known and beside > robot.parameters.r_max:
+    if known and robot.stepped_to is not None:
+        beside = robot.stepped_to
+    if known and beside > robot.parameters.r_max + CLOSE * r0:
         return Outcome(0.0, Reason.RECEDED, robot.readings())
-    if known and abs(beside - r0) < CLOSE:
+    if known and abs(beside - r0) < CLOSE * r0:
         return Outcome(0.0, Reason.DONE, robot.readings())
     yield from quarter(robot, side)
     if not known:
         beside = yield from _square_up(robot, side)
     reason = Reason.RECEDED
     advance = 0.0
-    if beside <= robot.parameters.r_max + CLOSE:
+    if beside <= robot.parameters.r_max + CLOSE * r0:
         reason = Reason.DONE
         start = robot.odometer
         yield from go(robot, beside - r0, keep=robot.parameters.r_min)
@@ -98,10 +100,12 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
     scan: list[tuple[float, float]] = []
     yield from spin(robot, -SWEEP)
     goal = axis + SWEEP
+    ranger = _front_ranger(robot)
+    farthest = ranger.x + REACH * ranger.far
     while robot.turned < goal:
         robot.drive(0.0, 0.5 * robot.profile.turn_rate)
         yield
-        if robot.is_fresh and (reading := robot.eyes.beam) < math.inf:
+        if robot.is_fresh and (reading := robot.eyes.beam) < farthest:
             scan.append((robot.turned - axis, reading))
     yield from stop(robot)
     wall = wall_of_scan(scan, _inverse_error(robot), side)
@@ -118,6 +122,11 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
 
 def _inverse_error(robot: Robot) -> float:
     """Return the deviation of an inverse range ahead, in 1 / metres."""
-    ranger = next(r for r in robot.profile.rangers if looks_along(r, 0.0))
+    ranger = _front_ranger(robot)
     r0 = robot.parameters.r0
     return (ranger.noise + 1e-3) / (r0 * r0) + ranger.noise_growth
+
+
+def _front_ranger(robot: Robot) -> Ranger:
+    """Return a ranger that looks straight ahead."""
+    return next(r for r in robot.profile.rangers if looks_along(r, 0.0))

@@ -74,7 +74,9 @@ class WallTrack:
         """Whether a wall has been found."""
         return self.distance < math.inf
 
-    def begin(self, odometer: float, turned: float, lean: float, variance: float) -> None:
+    def begin(
+        self, odometer: float, turned: float, lean: float, variance: float
+    ) -> None:
         """Start from a heading, counter-clockwise against the leg's axis."""
         self._odometer, self._turned = odometer, turned
         self.lean, self.lean_variance = self._sense * lean, variance
@@ -103,7 +105,7 @@ class WallTrack:
         if (
             len(self._seeds) == SEED
             and mean <= self.reach
-            and spread <= max(self._least, 4.0 * math.sqrt(self._variance(mean)))
+            and spread <= self._tolerance(mean)
         ):
             self.distance = mean - self.mount * self.lean
             self._pdd = self._variance(mean) / SEED
@@ -145,11 +147,11 @@ class WallTrack:
             reason = Reason.STEPPED
             is_settled = (
                 len(last) == CONFIRM
-                and max(last) - min(last) < 2 * self._least
+                and max(last) - min(last) < self._tolerance(last[-1])
                 and misfits[-1][0] - misfits[-CONFIRM][0] > 0.5 * self._least
             )
         if is_settled:
-            found = sorted(last)[len(last) // 2]
+            found = sorted(last[-3:])[1] if len(last) > 2 else last[-1]
             spot = self._cone * (min(expected, found) - self._offset)
             # Against a background the spot's front rim tells first; before nothing
             # at all, or sliding down an end face, its rear rim tells last.
@@ -157,6 +159,10 @@ class WallTrack:
             began = misfits[0][0]
             place = began + self.mount + (-spot if is_dark else spot)
             self.change = Change(reason, place, found, began)
+
+    def _tolerance(self, reading: float) -> float:
+        """Return by how much readings of one wall may differ, in metres."""
+        return max(self._least, 4.0 * math.sqrt(self._variance(reading)))
 
     def _variance(self, reading: float) -> float:
         """Return the variance of a reading, in squared metres."""

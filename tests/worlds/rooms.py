@@ -29,10 +29,16 @@ def random_room(
         )
         cell = rim[int(rng.integers(len(rim)))]
         shape = _union(taken | {cell}, x, y)
-        if isinstance(shape, shapely.Polygon) and not shape.interiors and shape.is_valid:
+        if (
+            isinstance(shape, shapely.Polygon)
+            and not shape.interiors
+            and shape.is_valid
+        ):
             if _is_open(shape, least):
                 taken.add(cell)
-    return make_world(list(_union(taken, x, y).exterior.coords)[:-1], name="random room")
+    return make_world(
+        list(_union(taken, x, y).exterior.coords)[:-1], name="random room"
+    )
 
 
 def _union(cells, x, y):
