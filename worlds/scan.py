@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from behaviours.port import Side
 
@@ -33,7 +33,7 @@ class SeenWall:
     variance: float
     """Of `normal`, in squared radians."""
     behind: float | None = None
-    """How far back along it an outer corner ends it, in metres, if one does."""
+    """How far back along it the wall ends, in metres, if it does not reach abeam."""
 
 
 def wall_of_scan(
@@ -75,6 +75,7 @@ def wall_of_scan(
         return None
     points = [(math.cos(a), math.sin(a), 1.0 / r) for a, r in scan]
     one, misfit = _fit(points, error)
+    one = _with_end(one, scan, side)
     splits = range(FEWEST, len(points) - FEWEST + 1)
     pairs = [(_fit(points[:k], error), _fit(points[k:], error), k) for k in splits]
     if not pairs or misfit <= 2.0 * (len(points) - 2) * error * error:
@@ -97,6 +98,17 @@ def wall_of_scan(
         variance,
         (near[1] if takes_first else near[0]) if is_outer else None,
     )
+
+
+def _with_end(
+    wall: SeenWall, scan: Sequence[tuple[float, float]], side: Side
+) -> SeenWall:
+    """Return the wall with its end, if it ends before the robot is abeam of it."""
+    foremost = scan[-1][0] if side is Side.RIGHT else scan[0][0]
+    slant = (wall.normal - foremost) * -side.value
+    if not 0.0 < slant < math.pi / 2:
+        return wall
+    return replace(wall, behind=wall.distance * math.tan(slant))
 
 
 def _fit(

@@ -16,6 +16,8 @@ SWEEP = math.radians(50)
 """A wall to square up with is looked for so far to either side, in radians."""
 SQUARE = 0.01
 """Deviation of the heading after an exact sweep, in radians."""
+ROUND = 0.005
+"""Least error of a range that a sweep reckons with, in parts of r0."""
 REACH = 0.85
 """Part of its range in which a ranger sees all of its spot on a slanted wall."""
 CLOSE = 1 / 15
@@ -124,7 +126,8 @@ def _inverse_error(robot: Robot) -> float:
     """Return the deviation of an inverse range ahead, in 1 / metres."""
     ranger = _front_ranger(robot)
     r0 = robot.parameters.r0
-    return (ranger.noise + 1e-3) / (r0 * r0) + ranger.noise_growth
+    deviation = ranger.noise + ranger.noise_growth * (r0 - ranger.x) ** 2
+    return max(deviation, ROUND * r0) / (r0 * r0)
 
 
 def _front_ranger(robot: Robot) -> Ranger:
