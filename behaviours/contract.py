@@ -6,12 +6,11 @@ carry out primitives there; what it answers is held against what the port says.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 from behaviours.parameters import Parameters
-from behaviours.port import Body, Outcome, Primitive
+from behaviours.port import Body, Outcome
 from behaviours.situations import Situation, Step, situations
 
 __all__ = ["ContractError", "Failure", "MakeBody", "check_body"]

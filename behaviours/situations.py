@@ -7,7 +7,6 @@ otherwise the robot follows it eastward, the wall on its right.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 

@@ -8,7 +8,7 @@ wall, and only then computes what the wall answers.
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import pymunk
@@ -16,9 +16,9 @@ import shapely
 from numpy.typing import NDArray
 
 from worlds.pose import Pose
-from worlds.world import World
+from worlds.world import World, WorldError
 
-__all__ = ["Arena", "Disc", "PlacementError"]
+__all__ = ["Arena", "Disc", "Rider"]
 
 WALL, ROBOT = 1, 2
 SLOP = 1e-3
@@ -29,8 +29,14 @@ STRIDE = 0.005
 """Farthest, in metres, that a body goes between two tests for contact."""
 
 
-class PlacementError(ValueError):
-    """A start where a robot would stand in a wall, in another robot or outside."""
+class Rider(Protocol):
+    """What takes part in every time step of an arena: the inside of a robot."""
+
+    def act(self) -> None:
+        """Set the disc's wished speed and spin, before the step."""
+
+    def sense(self) -> None:
+        """Take note of what the step has changed, after it."""
 
 
 class Disc:
@@ -40,8 +46,8 @@ class Disc:
     """
 
     __slots__ = (
-        *("_inertia", "_mass", "body", "contacts", "radius", "row", "speed", "spin"),
-        "touching",
+        *("_inertia", "_mass", "angle", "body", "contacts", "radius", "row"),
+        *("speed", "spin", "touching", "x", "y"),
     )
 
     def __init__(self, body: pymunk.Body, radius: float, row: int) -> None:
@@ -49,6 +55,10 @@ class Disc:
         self.radius = radius
         self.row = row
         """Which of the arena's robots it is."""
+        self.x, self.y = body.position
+        """Where its centre is, in metres."""
+        self.angle = body.angle
+        """Its heading, in radians."""
         self.speed = 0.0
         """What the wheels strive for ahead, in metres a second."""
         self.spin = 0.0
@@ -60,10 +70,15 @@ class Disc:
         self._mass = body.mass
         self._inertia = body.moment
 
+    def locate(self) -> None:
+        """Read from the physics where the body is."""
+        self.x, self.y = self.body.position
+        self.angle = self.body.angle
+
     def push(self, dt: float) -> None:
         """Press on the ground so as to reach the wished speed in one step."""
         body = self.body
-        angle = body.angle
+        angle = self.angle
         vx, vy = body.velocity
         fx = self._mass * (self.speed * math.cos(angle) - vx) / dt
         fy = self._mass * (self.speed * math.sin(angle) - vy) / dt
@@ -98,6 +113,8 @@ class Arena:
         self.time_step = time_step
         self.ticks = 0
         self.discs: list[Disc] = []
+        self.riders: list[Rider] = []
+        """The insides of the robots; each joins by itself."""
         self.places: NDArray[np.float64] = np.zeros((0, 3))
         """Centre and radius of each robot, in metres."""
         self.walls = np.array(
@@ -138,7 +155,7 @@ class Arena:
 
         Raises
         ------
-        PlacementError
+        WorldError
             If the body does not fit there.
         """
         self._check_place(pose, radius)
@@ -158,27 +175,40 @@ class Arena:
 
     def step(self) -> None:
         """Let one time step pass for all robots."""
+        for rider in self.riders:
+            rider.act()
         self.ticks += 1
         dt = self.time_step / self._substeps
         for _ in range(self._substeps):
             for disc in self.discs:
                 disc.push(dt)
             self._space.step(dt)
+            for disc in self.discs:
+                disc.locate()
+        places = self.places
+        for disc in self.discs:
+            places[disc.row, 0] = disc.x
+            places[disc.row, 1] = disc.y
+        for rider in self.riders:
+            rider.sense()
 
     def _check_place(self, pose: Pose, radius: float) -> None:
+        """Refuse a place in a wall, outside, or in another robot."""
+        here = f"({pose.x:g}, {pose.y:g})"
+        if not all(map(math.isfinite, (pose.x, pose.y, pose.heading))):
+            raise WorldError("start", f"expected finite numbers; got {pose}")
         centre = shapely.Point(pose.x, pose.y)
-        where = f"({pose.x:g}, {pose.y:g})"
         if not self._free.contains(centre):
-            raise PlacementError(f"{where} is not in free space")
+            raise WorldError("start", f"{here} is not in free space")
         gap = self._free.boundary.distance(centre)
         if gap < radius:
-            raise PlacementError(
-                f"{where} is {gap:.3f} m from a wall; the body needs {radius:g} m"
-            )
+            fault = f"{here} is {gap:.3f} m from a wall; the body needs {radius:g} m"
+            raise WorldError("start", fault)
         for other in self.discs:
-            gap = math.dist(other.body.position, (pose.x, pose.y))
+            gap = math.hypot(other.x - pose.x, other.y - pose.y)
             if gap < radius + other.radius:
-                raise PlacementError(f"{where} is {gap:.3f} m from another robot")
+                fault = f"{here} is {gap:.3f} m from another robot's centre"
+                raise WorldError("start", fault)
 
 
 def _walled_space(walls: NDArray[np.float64]) -> pymunk.Space:

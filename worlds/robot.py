@@ -11,7 +11,6 @@ from collections import deque
 
 import numpy as np
 
-from behaviours.parameters import Parameters
 from behaviours.port import Readings
 from worlds.arena import Arena
 from worlds.pose import Pose
@@ -36,12 +35,11 @@ class Robot:
         arena: Arena,
         start: Pose,
         profile: Profile,
-        parameters: Parameters,
         rng: np.random.Generator,
         sigma: float,
     ) -> None:
         self.profile = profile
-        self.parameters = parameters
+        self.parameters = profile.parameters
         self.arena = arena
         self.disc = arena.add(start, profile.radius, profile.mass, profile.speed)
         self.odometer = 0.0
@@ -75,14 +73,15 @@ class Robot:
         self._rng = rng
         self._sigma = sigma
         self._normals: list[float] = []
-        self.eyes = Eyes(profile, parameters.r_min, arena, self.disc, self.normal)
-        self._place = (start.x, start.y, start.heading)
+        self.eyes = Eyes(profile, arena, self.disc, self.normal)
+        self._x, self._y = start.x, start.y
         self._wheels = (0.0, 0.0)
         self._target = (0.0, 0.0)
         self._seen = self._missed = 0
         self._due = 0.0
         self.begin_leg()
         self._look()
+        arena.riders.append(self)
 
     def begin_leg(self) -> None:
         """Draw the unseen errors of a leg anew; forget what the old one saw."""
@@ -142,15 +141,9 @@ class Robot:
         self.lean += turn
         self.lean_variance += self.wander * abs(way)
         self.ahead -= way
-        body = self.disc.body
-        x, y = body.position
-        old_x, old_y, _ = self._place
-        self._place = (x, y, body.angle)
-        self.travelled += math.hypot(x - old_x, y - old_y)
-        places = self.arena.places
-        row = self.disc.row
-        places[row, 0] = x
-        places[row, 1] = y
+        disc = self.disc
+        self.travelled += math.hypot(disc.x - self._x, disc.y - self._y)
+        self._x, self._y = disc.x, disc.y
         self._due -= dt
         self.is_fresh = self._due <= 1e-9
         if self.is_fresh:
@@ -161,11 +154,6 @@ class Robot:
         """Return the newest readings; with `front`, what is known of the front."""
         ahead = self.eyes.front if front < 0 else front
         return Readings(ahead, self.left, self.right)
-
-    @property
-    def pose(self) -> tuple[float, float, float]:
-        """True x and y, in metres, and heading, in radians, in the world's frame."""
-        return self._place
 
     def forget_before(self, odometer: float) -> None:
         """Forget the side readings that were taken before a place on this leg."""
@@ -181,7 +169,7 @@ class Robot:
     def _look(self) -> None:
         """Take new ranges and track the clearance ahead."""
         eyes = self.eyes
-        eyes.look(*self._place)
+        eyes.look(self.disc.x, self.disc.y, self.disc.angle)
         self.left, self.right = eyes.left, eyes.right
         self.trace.append((self.odometer, self.turned, eyes.left, eyes.right))
         gap = eyes.front - self.ahead

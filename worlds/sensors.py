@@ -33,7 +33,6 @@ class Eyes:
     def __init__(
         self,
         profile: Profile,
-        r_min: float,
         arena: Arena,
         disc: Disc,
         normal: Callable[[], float],
@@ -44,7 +43,7 @@ class Eyes:
         self._arena = arena
         self._row = disc.row
         self._normal = normal
-        self._swath = r_min
+        self._swath = profile.parameters.r_min
         self._cast = cast
         self._rays = ray_table(profile.rangers)
         self._ranges = np.empty(len(profile.rangers))
@@ -66,10 +65,10 @@ class Eyes:
             mount_x, mount_y, cos, sin, near, far, noise, growth, side = optics
             if noise or growth:
                 deviation = noise + growth * reading * reading
-                reading += deviation * self._normal()  # noqa: PLW2901
+                reading += deviation * self._normal()
             if reading > far:
                 continue
-            reading = max(reading, near)  # noqa: PLW2901
+            reading = max(reading, near)
             ahead = mount_x + cos * reading
             aside = mount_y + sin * reading
             if ahead > 0.0 and -swath < aside < swath and ahead < front:

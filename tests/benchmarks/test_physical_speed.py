@@ -49,7 +49,7 @@ def bare_loop(ticks, dt, looks):
 def test_physical_body_keeps_up_with_a_bare_loop(benchmark):
     def both():
         arena = Arena(HALL)
-        body = PhysicalBody(arena, Pose(1, 0.3), rng=np.random.default_rng(1))
+        body = PhysicalBody(arena, Pose(1, 0.3), GENERIC, np.random.default_rng(1))
         body.execute(Align(Side.RIGHT))
         begun, first = time.perf_counter(), arena.ticks
         body.execute(Follow())
