@@ -5,15 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 
 from topomap.embedding import embedded
 from topomap.topological_map import TopologicalMap, Vertex, same_direction
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 __all__ = ["Comparison", "compare_maps"]
 
@@ -35,7 +32,9 @@ class Comparison:
     """Root mean square distance of matched vertices, in metres, after the rigid
     motion that makes it least; None when nothing is matched."""
     rotation: float | None
-    """Takes directions of the map to those of the reference, in radians."""
+    """That motion's angle, from the map to the reference, in radians."""
+    offset: tuple[float, float] | None
+    """That motion's way after the turn about the map's origin, in metres."""
     pairs: tuple[tuple[int, int], ...]
     """Matched vertices: id in the map, id in the reference."""
 
@@ -71,9 +70,9 @@ def compare_maps(
     -----
     An isomorphism keeps types, exits with their directions up to one rotation,
     and unexplored exits; lengths and positions are not compared but reported.
-    One matched pair of vertices and a rotation decide all others, so each seed
-    is grown in linear time; at worst O(V^2), in practice one seed in few
-    survives its first steps. Maps are never mirrored.
+    One matched pair of vertices and a rotation decide all others: an isomorphism
+    is found or excluded in O(V^2) at worst, near O(V) where corners differ; the
+    parts of maps that are not isomorphic take O(V^2). Maps are never mirrored.
 
     Examples
     --------
@@ -104,26 +103,22 @@ def _compare(
     chart: TopologicalMap, reference: TopologicalMap, tolerance: float
 ) -> Comparison:
     a, b = _Ways(chart), _Ways(reference)
-    whole = len(a.vertices) == len(b.vertices) and len(chart.edges) == len(
-        reference.edges
-    )
-    best: dict[int, int] = {}
-    best_key = (False, 0, 0.0)
-    best_rotation = None
     places = _places(chart), _places(reference)
-    for pairs, rotation, agrees in _matches(a, b, tolerance, whole):
-        is_same = agrees and whole and len(pairs) == len(a.vertices)
-        if (is_same, len(pairs)) < best_key[:2]:
-            continue
-        key = (is_same, len(pairs), -_aligned_rmse(pairs, *places))
-        if not best or key > best_key:
-            best, best_key, best_rotation = pairs, key, rotation
+    found = list(_isomorphisms(a, b, tolerance))
+    is_same = bool(found)
+    if not found:
+        parts = _agreeing_parts(a, b, tolerance)
+        size = max(map(len, parts), default=0)
+        found = [pairs for pairs in parts if len(pairs) == size]
+    ranked = ((_best_motion(pairs, *places), pairs) for pairs in found)
+    motion, best = min(ranked, key=lambda pair: pair[0].rmse, default=(None, {}))
     return Comparison(
-        correct=best_key[0],
+        correct=is_same,
         missing_vertices=len(b.vertices) - len(best),
         extra_vertices=len(a.vertices) - len(best),
-        position_rmse=-best_key[2] if best else None,
-        rotation=best_rotation,
+        position_rmse=motion and motion.rmse,
+        rotation=motion and motion.angle,
+        offset=motion and motion.offset,
         pairs=tuple(sorted(best.items())),
     )
 
@@ -132,6 +127,7 @@ class _Ways:
     """A map by its exits: where each exit of each vertex leads."""
 
     def __init__(self, chart: TopologicalMap) -> None:
+        self.edges = len(chart.edges)
         self.vertices = {vertex.id: vertex for vertex in chart.vertices}
         self.leads: dict[int, list[tuple[float, int]]] = {v: [] for v in self.vertices}
         for edge in chart.edges:
@@ -139,28 +135,35 @@ class _Ways:
             self.leads[edge.target].append((edge.target_exit, edge.source))
 
 
-def _matches(
-    a: _Ways, b: _Ways, tolerance: float, whole: bool
-) -> Iterator[tuple[dict[int, int], float, bool]]:
-    """Yield the match grown from each seed: pairs, rotation, whether all agrees.
+def _isomorphisms(a: _Ways, b: _Ways, tolerance: float) -> Iterator[dict[int, int]]:
+    """Yield all matches of the whole of one map with the whole of the other.
 
-    For whole maps, every isomorphism contains the first vertex of `b`; parts
-    are grown from every pair that is in no larger match yet.
+    Each contains the first vertex of `b`, and grows from there.
     """
+    if len(a.vertices) != len(b.vertices) or a.edges != b.edges or not b.vertices:
+        return
+    q = next(iter(b.vertices.values()))
+    for p in a.vertices.values():
+        for rotation in _rotations(p, q, tolerance):
+            pairs, agrees = _grow(a, b, p.id, q.id, rotation, tolerance, strict=True)
+            if agrees and len(pairs) == len(a.vertices):
+                yield pairs
+
+
+def _agreeing_parts(a: _Ways, b: _Ways, tolerance: float) -> list[dict[int, int]]:
+    """Return the maximal connected matches, each grown from its first pair."""
     done: set[tuple[int, int, int]] = set()
-    found_whole = False
+    parts = []
     for q in b.vertices.values():
         for p in a.vertices.values():
             for rotation in _rotations(p, q, tolerance):
-                key = (p.id, q.id, round(math.degrees(rotation)) % 360)
-                if key in done:
+                degrees = round(math.degrees(rotation)) % 360
+                if (p.id, q.id, degrees) in done:
                     continue
-                pairs, agrees = _grow(a, b, p.id, q.id, rotation, tolerance)
-                done |= {(i, j, key[2]) for i, j in pairs.items()}
-                found_whole |= agrees
-                yield pairs, rotation, agrees
-        if whole and found_whole:
-            return
+                pairs, _ = _grow(a, b, p.id, q.id, rotation, tolerance)
+                done |= {(i, j, degrees) for i, j in pairs.items()}
+                parts.append(pairs)
+    return parts
 
 
 def _rotations(p: Vertex, q: Vertex, tolerance: float) -> list[float]:
@@ -175,47 +178,68 @@ def _rotations(p: Vertex, q: Vertex, tolerance: float) -> list[float]:
 
 def _agree(p: Vertex, q: Vertex, rotation: float, tolerance: float) -> bool:
     """Tell whether two vertices are the same, one turned."""
-
-    def laid_over(mine: tuple[float, ...], theirs: tuple[float, ...]) -> bool:
-        return len(mine) == len(theirs) and all(
-            any(same_direction(m + rotation, t, tolerance) for t in theirs)
-            for m in mine
-        )
-
     return (
         p.type is q.type
-        and laid_over(p.exits, q.exits)
-        and laid_over(p.unexplored, q.unexplored)
+        and _laid_over(p.exits, q.exits, rotation, tolerance)
+        and _laid_over(p.unexplored, q.unexplored, rotation, tolerance)
     )
 
 
+def _laid_over(
+    mine: tuple[float, ...],
+    theirs: tuple[float, ...],
+    rotation: float,
+    tolerance: float,
+) -> bool:
+    """Tell whether one set of directions, turned, is the other."""
+    if len(mine) != len(theirs):
+        return False
+    for direction in mine:
+        turned = direction + rotation
+        if not any(same_direction(turned, other, tolerance) for other in theirs):
+            return False
+    return True
+
+
 def _grow(
-    a: _Ways, b: _Ways, p: int, q: int, rotation: float, tolerance: float
+    a: _Ways,
+    b: _Ways,
+    p: int,
+    q: int,
+    rotation: float,
+    tolerance: float,
+    *,
+    strict: bool = False,
 ) -> tuple[dict[int, int], bool]:
-    """Match outwards from one pair as far as the maps agree."""
+    """Match outwards from one pair; return the pairs and whether all agreed.
+
+    A disagreement bounds the match there; a strict one ends at the first.
+    """
     pairs, taken, agrees = {p: q}, {q}, True
     todo = [(p, q)]
-    while todo:
+    while todo and (agrees or not strict):
         i, j = todo.pop()
         for direction, neighbour in a.leads[i]:
-            there = [
-                other
-                for other_direction, other in b.leads[j]
-                if same_direction(direction + rotation, other_direction, tolerance)
-            ]
-            if len(there) != 1:
+            there = _follow(b, j, direction + rotation, tolerance)
+            if there is None:
                 agrees = False
-            elif neighbour in pairs or there[0] in taken:
-                agrees &= pairs.get(neighbour) == there[0]
-            elif _agree(
-                a.vertices[neighbour], b.vertices[there[0]], rotation, tolerance
-            ):
-                pairs[neighbour] = there[0]
-                taken.add(there[0])
-                todo.append((neighbour, there[0]))
+            elif neighbour in pairs or there in taken:
+                agrees &= pairs.get(neighbour) == there
+            elif _agree(a.vertices[neighbour], b.vertices[there], rotation, tolerance):
+                pairs[neighbour] = there
+                taken.add(there)
+                todo.append((neighbour, there))
             else:
                 agrees = False
     return pairs, agrees
+
+
+def _follow(ways: _Ways, vertex: int, direction: float, tolerance: float) -> int | None:
+    """Return where the exit in a direction leads; None if no edge does."""
+    for exit_, neighbour in ways.leads[vertex]:
+        if same_direction(exit_, direction, tolerance):
+            return neighbour
+    return None
 
 
 def _places(chart: TopologicalMap) -> dict[int, complex]:
@@ -225,14 +249,25 @@ def _places(chart: TopologicalMap) -> dict[int, complex]:
     return {v.id: complex(*v.position) for v in chart.vertices if v.position}
 
 
-def _aligned_rmse(
+class _Motion(NamedTuple):
+    """A rigid motion: a turn about the origin, then a move."""
+
+    angle: float
+    offset: tuple[float, float]
+    rmse: float
+    """Root mean square distance that it leaves, in metres."""
+
+
+def _best_motion(
     pairs: dict[int, int], mine: dict[int, complex], theirs: dict[int, complex]
-) -> float:
-    """Return the least root mean square distance over all rigid motions."""
+) -> _Motion:
+    """Return the rigid motion that brings matched vertices nearest together."""
     p = np.array([mine[i] for i in pairs])
     q = np.array([theirs[j] for j in pairs.values()])
-    p, q = p - p.mean(), q - q.mean()
-    pull: np.complex128 = np.vdot(p, q)
-    turn = pull / abs(pull) if abs(pull) > 0 else 1.0
-    residual: NDArray[np.float64] = np.abs(q - turn * p)
-    return float(np.sqrt(np.mean(residual**2)))
+    pull = np.vdot(p - p.mean(), q - q.mean())
+    turn = pull / abs(pull) if abs(pull) > 0 else 1.0 + 0.0j
+    move = q.mean() - turn * p.mean()
+    rmse = np.sqrt(np.mean(np.abs(q - turn * p - move) ** 2))
+    return _Motion(
+        float(np.angle(turn)), (float(move.real), float(move.imag)), float(rmse)
+    )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,8 +15,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 __all__ = ["Embedding", "embed", "embedded"]
 
-Triplets: TypeAlias = "tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.float64]]"
-"""Rows, columns and values of a sparse matrix; equal places add up."""
 
 EXACT = 1e-4
 """Standard deviation, in metres, that stands in for an exact length."""
@@ -96,13 +94,7 @@ def embed(chart: TopologicalMap) -> Embedding:
     place = np.full(count, -1)
     place[free] = np.arange(len(free))
 
-    way, weight = _springs(chart)
-    force = np.zeros((count, 2))
-    pull = np.einsum("eab,eb->ea", weight, way)
-    np.add.at(force, ends[:, 1], pull)
-    np.subtract.at(force, ends[:, 0], pull)
-    solution, blocks = _solve(_stiffness(place[ends], weight), force[free].ravel())
-
+    solution, blocks = _solve(place[ends], *_springs(chart), len(free))
     positions, covariances = np.zeros((count, 2)), np.zeros((count, 2, 2))
     positions[free], covariances[free] = solution.reshape(-1, 2), blocks
     # Springs do not mind where they are: each part is moved to its anchor.
@@ -176,44 +168,60 @@ def _parts(
     return np.unique([root(k) for k in range(count)], return_inverse=True)
 
 
-def _stiffness(ends: NDArray[np.int64], weight: NDArray[np.float64]) -> Triplets:
-    """Return rows, columns and values of the stiffness of the free vertices.
-
-    `ends` are places among the free vertices, -1 for a fixed one.
-    """
-    rows, columns, values = [], [], []
-    axes = np.arange(2)
-    for here, there, sign in ((0, 0, 1.0), (1, 1, 1.0), (0, 1, -1.0), (1, 0, -1.0)):
-        is_free = (ends[:, here] >= 0) & (ends[:, there] >= 0)
-        row = 2 * ends[is_free, here, None, None] + axes[:, None]
-        column = 2 * ends[is_free, there, None, None] + axes
-        shape = (len(row), 2, 2)
-        rows.append(np.broadcast_to(row, shape).ravel())
-        columns.append(np.broadcast_to(column, shape).ravel())
-        values.append(sign * weight[is_free].ravel())
-    return np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
-
-
 def _solve(
-    stiffness: Triplets, force: NDArray[np.float64]
+    ends: NDArray[np.int64],
+    way: NDArray[np.float64],
+    weight: NDArray[np.float64],
+    size: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the solution, and the 2 x 2 blocks on the diagonal of the inverse."""
-    size = len(force)
-    rows, columns, values = stiffness
-    if size <= DENSE:
-        matrix = np.zeros((size, size))
-        np.add.at(matrix, (rows, columns), values)
-        inverse = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
-        return inverse @ force, _blocks(inverse)
-    from scipy.sparse import coo_array
+    """Return the best places, and the 2 x 2 blocks on their covariance's diagonal.
+
+    `ends` are places among `size` free ones; -1 stands for a fixed one, at 0.
+    """
+    edges = len(ends)
+    rows = np.arange(2 * edges)
+    axes = np.arange(2)
+    columns = (2 * ends[:, :, None] + axes).transpose(0, 2, 1).reshape(2 * edges, 2)
+    source, target = columns.T
+    if 2 * size <= DENSE:
+        # Each edge's difference: the target's coordinates less the source's.
+        # The fixed vertices share the last two columns, which are cut off.
+        difference = np.zeros((2 * edges, 2 * size + 2))
+        difference[rows, target] = 1.0
+        difference[rows, source] = -1.0
+        difference = difference[:, : 2 * size]
+        pull = (weight @ difference.reshape(edges, 2, -1)).reshape(2 * edges, -1)
+        inverse = np.asarray(np.linalg.inv(difference.T @ pull), dtype=np.float64)
+        return inverse @ (pull.T @ way.ravel()), _blocks(inverse)
+    return _solve_sparse(source, target, way, weight, size)
+
+
+def _solve_sparse(
+    source: NDArray[np.int64],
+    target: NDArray[np.int64],
+    way: NDArray[np.float64],
+    weight: NDArray[np.float64],
+    size: int,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Do what `_solve` does for many vertices; fixed ones have negative columns."""
+    from scipy.sparse import block_diag, coo_array
     from scipy.sparse.linalg import splu
 
-    factor = splu(coo_array((values, (rows, columns)), shape=(size, size)).tocsc())
+    rows = np.arange(len(source))
+    to, off = target >= 0, source >= 0
+    values = np.concatenate([np.ones(to.sum()), -np.ones(off.sum())])
+    place = (
+        np.concatenate([rows[to], rows[off]]),
+        np.concatenate([target[to], source[off]]),
+    )
+    difference = coo_array((values, place), shape=(len(rows), 2 * size)).tocsr()
+    pull = block_diag(weight, format="csr") @ difference
+    factor = splu((difference.T @ pull).tocsc())
     blocks = []
-    for start in range(0, size, DENSE):
-        unit = np.eye(size, min(DENSE, size - start), -start)
+    for start in range(0, 2 * size, DENSE):
+        unit = np.eye(2 * size, min(DENSE, 2 * size - start), -start)
         blocks.append(_blocks(factor.solve(unit)[start : start + unit.shape[1]]))
-    return factor.solve(force), np.concatenate(blocks)
+    return factor.solve(pull.T @ way.ravel()), np.concatenate(blocks)
 
 
 def _blocks(matrix: NDArray[np.float64]) -> NDArray[np.float64]:

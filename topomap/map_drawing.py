@@ -86,8 +86,10 @@ def draw_map(
         here = [places[v.id] for v in chart.vertices if v.type is type_]
         if here:
             x, y = np.array(here).T
-            style = {"color": COLOUR[type_], "marker": MARKER[type_]}
-            ax.scatter(x, y, s=22, label=type_.value, zorder=4, **style)
+            colour, marker = COLOUR[type_], MARKER[type_]
+            ax.scatter(
+                x, y, s=22, color=colour, marker=marker, label=type_.value, zorder=4
+            )
     if len(chart.vertices) <= MAX_LABELS:
         for vertex_id, place in places.items():
             ax.annotate(

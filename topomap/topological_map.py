@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -145,7 +145,7 @@ class TopologicalMap:
 
 def same_direction(a: float, b: float, tolerance: float = ANGLE_TOLERANCE) -> bool:
     """Tell whether two directions, in radians, agree up to full turns."""
-    return abs(math.remainder(a - b, math.tau)) <= tolerance
+    return a == b or abs(math.remainder(a - b, math.tau)) <= tolerance
 
 
 def _faults(chart: TopologicalMap) -> Iterator[InputError]:
@@ -157,71 +157,81 @@ def _faults(chart: TopologicalMap) -> Iterator[InputError]:
                 "", f"vertices[{k}].id", vertex.id, "an id not used before"
             )
         by_id[vertex.id] = vertex
-        yield from _vertex_faults(vertex, f"vertices[{k}]")
+        yield from _vertex_faults(vertex, k)
     used: dict[int, list[float]] = {vertex.id: [] for vertex in chart.vertices}
     for k, edge in enumerate(chart.edges):
-        for end in ("source", "target"):
-            yield from _end_faults(edge, end, f"edges[{k}].{end}", by_id, used)
-        yield from _length_faults(edge, f"edges[{k}]")
+        yield from _length_faults(edge, k)
+        for end, vertex_id, direction in (
+            ("source", edge.source, edge.source_exit),
+            ("target", edge.target, edge.target_exit),
+        ):
+            if vertex_id not in by_id:
+                yield InputError("", f"edges[{k}].{end}", vertex_id, "a vertex's id")
+            elif expected := _misused(direction, by_id[vertex_id], used[vertex_id]):
+                yield _angle_error(f"edges[{k}].{end}_exit_deg", direction, expected)
+            else:
+                used[vertex_id].append(direction)
 
 
-def _vertex_faults(vertex: Vertex, field: str) -> Iterator[InputError]:
+def _is_among(direction: float, others: Iterable[float]) -> bool:
+    # A loop: maps are checked whenever one is made, and any() costs twice as much.
+    for other in others:  # noqa: SIM110
+        if same_direction(direction, other):
+            return True
+    return False
+
+
+def _misused(direction: float, vertex: Vertex, used: list[float]) -> str:
+    """Return what an edge's direction at a vertex should have been; else ''."""
+    if not math.isfinite(direction):
+        return "a finite angle"
+    if not _is_among(direction, vertex.exits):
+        return f"an exit of vertex {vertex.id}"
+    if _is_among(direction, vertex.unexplored):
+        return "an exit that is not marked unexplored"
+    if _is_among(direction, used):
+        return "an exit that no other edge uses"
+    return ""
+
+
+def _vertex_faults(vertex: Vertex, index: int) -> Iterator[InputError]:
     for name, directions in (
         ("exits_deg", vertex.exits),
         ("unexplored_deg", vertex.unexplored),
     ):
         for k, direction in enumerate(directions):
-            place = f"{field}.{name}[{k}]"
+            expected = ""
             if not math.isfinite(direction):
-                yield InputError("", place, direction, "a finite angle")
-            elif any(same_direction(direction, other) for other in directions[:k]):
-                yield _angle_error(place, direction, "a direction not named before")
-    for k, direction in enumerate(vertex.unexplored):
-        if not any(same_direction(direction, exit_) for exit_ in vertex.exits):
-            place = f"{field}.unexplored_deg[{k}]"
-            yield _angle_error(place, direction, "one of the vertex's exits")
-    numbers = [*(vertex.position or ())]
-    numbers += [value for row in vertex.covariance or () for value in row]
-    if not all(math.isfinite(number) for number in numbers):
-        yield InputError("", f"{field}.position", vertex.position, "finite metres")
+                expected = "a finite angle"
+            elif _is_among(direction, directions[:k]):
+                expected = "a direction not named before"
+            elif name == "unexplored_deg" and not _is_among(direction, vertex.exits):
+                expected = "one of the vertex's exits"
+            if expected:
+                yield _angle_error(
+                    f"vertices[{index}].{name}[{k}]", direction, expected
+                )
+    if vertex.position is not None and not all(map(math.isfinite, vertex.position)):
+        place = f"vertices[{index}].position"
+        yield InputError("", place, vertex.position, "finite metres")
+    for row in vertex.covariance or ():
+        if not all(map(math.isfinite, row)):
+            place = f"vertices[{index}].covariance"
+            yield InputError("", place, vertex.covariance, "finite square metres")
 
 
-def _end_faults(
-    edge: Edge,
-    end: str,
-    field: str,
-    by_id: dict[int, Vertex],
-    used: dict[int, list[float]],
-) -> Iterator[InputError]:
-    vertex_id = edge.source if end == "source" else edge.target
-    direction = edge.source_exit if end == "source" else edge.target_exit
-    if vertex_id not in by_id:
-        yield InputError("", field, vertex_id, "the id of a vertex")
-        return
-    vertex, place = by_id[vertex_id], f"{field}_exit_deg"
-    if not math.isfinite(direction):
-        yield InputError("", place, direction, "a finite angle")
-    elif not any(same_direction(direction, exit_) for exit_ in vertex.exits):
-        yield _angle_error(place, direction, f"an exit of vertex {vertex_id}")
-    elif any(same_direction(direction, exit_) for exit_ in vertex.unexplored):
-        yield _angle_error(place, direction, "an exit that is not marked unexplored")
-    elif any(same_direction(direction, other) for other in used[vertex_id]):
-        yield _angle_error(place, direction, "an exit that no other edge uses")
-    used[vertex_id].append(direction)
-
-
-def _length_faults(edge: Edge, field: str) -> Iterator[InputError]:
+def _length_faults(edge: Edge, index: int) -> Iterator[InputError]:
     if not edge.lengths:
-        yield InputError("", f"{field}.lengths", [], "at least one length")
+        yield InputError("", f"edges[{index}].lengths", [], "at least one length")
     for k, length in enumerate(edge.lengths):
-        if not (math.isfinite(length.value) and length.value > 0):
-            place = f"{field}.lengths[{k}].value"
+        if not 0 < length.value < math.inf:
+            place = f"edges[{index}].lengths[{k}].value"
             yield InputError("", place, length.value, "a finite length above 0")
-        if not (math.isfinite(length.sigma) and length.sigma >= 0):
-            place = f"{field}.lengths[{k}].sigma"
+        if not 0 <= length.sigma < math.inf:
+            place = f"edges[{index}].lengths[{k}].sigma"
             yield InputError("", place, length.sigma, "a finite length, not negative")
     if not math.isfinite(edge.shift):
-        yield InputError("", f"{field}.shift", edge.shift, "a finite length")
+        yield InputError("", f"edges[{index}].shift", edge.shift, "a finite length")
 
 
 def _angle_error(field: str, direction: float, expected: str) -> InputError:

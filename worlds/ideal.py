@@ -141,12 +141,8 @@ class IdealBody:
         self._scale = max(0.0, 1.0 + self._sigma * self._rng.standard_normal())
 
     def _readings(self) -> Readings:
-        u, v, look = self._u, self._v, self._sight.looking[self._quarters]
-        return Readings(
-            look.ahead(u, v, self.parameters.r_min),
-            look.beside(u, v, Side.LEFT),
-            look.beside(u, v, Side.RIGHT),
-        )
+        look = self._sight.looking[self._quarters]
+        return Readings(*look.all_round(self._u, self._v, self.parameters.r_min))
 
     def _advance(
         self, way: float, reason: Reason, clearance: float = math.inf

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numba import njit
 
+from behaviours.port import Side
 from worlds.world import WorldError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from behaviours.port import Side
     from worlds.world import World
 
 __all__ = ["Look", "Sight"]
@@ -55,13 +55,22 @@ class Look:
         """Return the clearance ahead over a swath; `inf` where there is none."""
         return float(_ahead(self._ahead, u, v, half_width))
 
+    def all_round(
+        self, u: float, v: float, half_width: float
+    ) -> tuple[float, float, float]:
+        """Return `ahead`, and `beside` on the left and on the right."""
+        found: tuple[float, float, float] = _all_round(
+            self._ahead, self._beside, u, v, half_width
+        )
+        return found
+
     def beside(self, u: float, v: float, side: Side) -> float:
         """Return the range to one side, just ahead of an edge that is abeam."""
-        return float(_least_beside(self._beside, u, v, side.value, 0.0))
+        return float(_least_beside(self._beside, u, v, _sign(side), 0.0))
 
     def least_beside(self, u: float, v: float, side: Side, way: float) -> float:
         """Return the least range to one side over the next `way` metres."""
-        return float(_least_beside(self._beside, u, v, side.value, way))
+        return float(_least_beside(self._beside, u, v, _sign(side), way))
 
     def until_beside(
         self, u: float, v: float, side: Side, within: float, sense: int
@@ -71,7 +80,7 @@ class Look:
         The way is counted positive, ahead for `sense` 1 and back for -1; `inf`
         if there is no such wall.
         """
-        return float(_until_beside(self._beside, u, v, side.value, within, sense))
+        return float(_until_beside(self._beside, u, v, _sign(side), within, sense))
 
     def next_change(
         self, u: float, v: float, side: Side, reach: float
@@ -80,7 +89,7 @@ class Look:
 
         `reach` is the range now, from `beside`.
         """
-        change = float(_until_change(self._beside, u, v, side.value, reach))
+        change = float(_until_change(self._beside, u, v, _sign(side), reach))
         return change, self.beside(u + change, v, side)
 
 
@@ -115,6 +124,11 @@ class Sight:
         """Return x and y of a point ahead u and left v."""
         c, s = COS[quarters], SIN[quarters]
         return c * u - s * v, s * u + c * v
+
+
+def _sign(side: Side) -> int:
+    """Return +1 for left; several times faster than the value of an Enum."""
+    return 1 if side is Side.LEFT else -1
 
 
 def _turned(walls: NDArray[np.float64], quarters: int) -> NDArray[np.float64]:
@@ -152,6 +166,15 @@ def _least_beside(walls, u, v, side, way):  # type: ignore[no-untyped-def]  # pr
         ):
             nearest = reach
     return nearest
+
+
+@njit(cache=True)
+def _all_round(ahead, beside, u, v, half_width):  # type: ignore[no-untyped-def]  # pragma: no cover
+    return (
+        _ahead(ahead, u, v, half_width),
+        _least_beside(beside, u, v, 1, 0.0),
+        _least_beside(beside, u, v, -1, 0.0),
+    )
 
 
 @njit(cache=True)
