@@ -133,10 +133,10 @@ def _differences(
 ) -> list[Failure]:
     """Return in what an outcome differs from what is expected."""
     if outcome.reason is not step.reason:
-        got = f"{outcome.reason.name} after {outcome.distance:.4f} m"
-        return [Failure(where, "reason", step.reason.name, got)]
+        ended = f"{outcome.reason.name} after {outcome.distance:.4f} m"
+        return [Failure(where, "reason", step.reason.name, ended)]
     failures = []
-    for what, expected, got in (
+    for what, wanted, got in (
         ("distance", step.distance, outcome.distance),
         ("shift", step.shift, outcome.shift),
         ("clearance", step.clearance, outcome.clearance),
@@ -144,7 +144,7 @@ def _differences(
         ("left", step.left, outcome.readings.left),
         ("right", step.right, outcome.readings.right),
     ):
-        if expected is not None and not abs(got - expected) <= tolerance:
-            wanted = f"{expected:.4f} m within {tolerance:g} m"
-            failures.append(Failure(where, what, wanted, f"{got:.4f} m"))
+        if wanted is not None and not abs(got - wanted) <= tolerance:
+            expected = f"{wanted:.4f} m within {tolerance:g} m"
+            failures.append(Failure(where, what, expected, f"{got:.4f} m"))
     return failures

@@ -59,7 +59,7 @@ class Robot:
         self.trace: deque[tuple[float, float, float, float]] = deque(maxlen=MEMORY)
         """Odometer, turning, left and right at each answer on this leg."""
         self.edge_behind: float | None = None
-        """How far behind the robot the wall to follow next is known to end, in metres."""
+        """How far behind the wall to follow next is known to end, in metres."""
         self.stepped_to: float | None = None
         """How far the followed wall is after a step just noticed, in metres."""
         self.side_lead = next(
@@ -80,13 +80,17 @@ class Robot:
         self._seen = self._missed = 0
         self._due = 0.0
         self.begin_leg()
+        self.begin_spin()
         self._look()
         arena.riders.append(self)
 
     def begin_leg(self) -> None:
-        """Draw the unseen errors of a leg anew; forget what the old one saw."""
+        """Draw the errors of a straight leg anew: its scale and its bend."""
         self._scale = 1.0 / (1.0 + self._clipped(self._sigma))
         self._drift = self._clipped(self.profile.drift)
+
+    def begin_spin(self) -> None:
+        """Draw the error of a turn anew, and forget what the old heading showed."""
         self._turn_scale = 1.0 + self._clipped(self.profile.turn_error) / (math.pi / 2)
         self.ahead = math.inf
         self._seen = self._missed = 0

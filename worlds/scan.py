@@ -114,7 +114,7 @@ def _with_end(
 def _fit(
     points: Sequence[tuple[float, float, float]], error: float
 ) -> tuple[SeenWall, float]:
-    """Return the wall of least squares through (cos, sin, 1 / range), and its misfit."""
+    """Return the wall of least squares, and its misfit; points as (cos, sin, 1 / r)."""
     cc = cs = ss = cr = sr = rr = 0.0
     for c, s, inverse in points:
         cc, cs, ss = cc + c * c, cs + c * s, ss + s * s

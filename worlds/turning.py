@@ -38,18 +38,19 @@ def spin(robot: Robot, angle: float) -> Control[None]:
 def turn(robot: Robot, primitive: Turn) -> Control[Outcome]:
     """Turn by 90 degrees, and undo what the robot leaned."""
     yield from quarter(robot, primitive.side)
+    robot.begin_leg()
     yield from settle(robot)
     return Outcome(0.0, Reason.DONE, robot.readings())
 
 
 def quarter(robot: Robot, side: Side) -> Control[None]:
-    """Turn to the axis on one side of the present one; a new leg begins."""
+    """Turn to the axis on one side of the present one."""
     angle = side.value * math.pi / 2
     yield from stop(robot)
     yield from spin(robot, angle - robot.lean)
     robot.lean -= angle
     robot.lean_variance += robot.profile.turn_error**2 + 1e-6
-    robot.begin_leg()
+    robot.begin_spin()
 
 
 def align(robot: Robot, primitive: Align) -> Control[Outcome]:
@@ -87,7 +88,7 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
 
 def _mean_side(robot: Robot, side: Side, looks: int = 4) -> Control[float]:
     """Return the mean of a few side readings; infinite if most see nothing."""
-    ranges = []
+    ranges: list[float] = []
     while len(ranges) < looks:
         yield
         if robot.is_fresh:
@@ -115,8 +116,8 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
         yield from spin(robot, axis - robot.turned)
         return math.inf
     yield from spin(robot, axis + wall.normal - robot.turned)
+    robot.begin_spin()
     robot.lean, robot.lean_variance = 0.0, wall.variance + SQUARE**2
-    robot.begin_leg()
     robot.edge_behind = wall.behind
     yield from settle(robot)
     return wall.distance
