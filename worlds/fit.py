@@ -102,7 +102,10 @@ def narrowest(world: World, parameters: Parameters) -> Passage:
     if not world.is_rectilinear:
         raise WorldError("world", "expected walls along x and y only")
     corners, walls, before = _corners_and_walls(
-        [straightened(ring, parameters) for ring in world.rings]
+        [
+            straightened(ring, parameters.least_recess, parameters.least_jut)
+            for ring in world.rings
+        ]
     )
     found = [
         _between_walls(corners, walls, axis=0),
