@@ -20,7 +20,8 @@ def jogs(ring: Ring, recess: float, jut: float) -> list[int]:
 
     A jog joins two parallel walls that run on in the same direction. It is
     ill-defined when the wall recedes by at most `recess` or juts out by at most
-    `jut`, as met with the wall on the right. Of two that share a corner only the shorter counts.
+    `jut`, as met with the wall on the right. Of two that share a corner only the
+    shorter counts.
 
     Parameters
     ----------

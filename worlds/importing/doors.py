@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from itertools import product
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = ["door_gaps"]
 
@@ -68,7 +71,7 @@ def _gap(
     near = np.argsort(distances, kind="stable")
     near = near[distances[near] <= REACH][:8]
     for k, extra in product(near, DEPTHS):
-        x0, y0, x1, y1 = walls[k].tolist()
+        x0, _y0, x1, _y1 = walls[k].tolist()
         across = 0 if x0 == x1 else 1
         level, at = walls[k, across], door[1 - across]
         depth = thickness / 2 + extra
@@ -92,7 +95,7 @@ def _free_way(
     ends[:, 1 - across] = at - 4, at + 4
     stretches = shapely.get_parts(free.intersection(shapely.LineString(ends)))
     found = []
-    for stretch in stretches:
+    for stretch in stretches[shapely.length(stretches) > 0]:
         along = shapely.get_coordinates(stretch)[:, 1 - across]
         low, high = float(along.min()), float(along.max())
         found.append((max(low - at, at - high, 0.0), low, high))

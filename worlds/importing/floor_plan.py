@@ -9,14 +9,11 @@ import shapely
 
 from worlds.importing.doors import door_gaps
 from worlds.importing.plan_xml import read_plan
-from worlds.importing.region import NoRegionError, Place, opened, straight, to_world
+from worlds.importing.region import Place, region_world
 from worlds.importing.squaring import slanted_share, square_up
 from worlds.world import World, WorldError
 
 __all__ = ["import_floor_plan"]
-
-ROUNDS = 8
-"""Straightening may make a passage narrow, closing one may make a jog."""
 
 
 def import_floor_plan(
@@ -56,13 +53,4 @@ def import_floor_plan(
     free = shapely.union_all(rooms).difference(solid)
     gaps = door_gaps(plan.doors, walls, free, door, wall, tolerance)
     free = shapely.union_all([free, *gaps])
-    try:
-        region = opened(free, passage, start)
-        for _ in range(ROUNDS):
-            before = region
-            region = opened(straight(region, tolerance), passage, start)
-            if region.equals(before):
-                break
-    except NoRegionError as error:
-        raise WorldError(f"{path}: start", str(error)) from None
-    return to_world(region, path.stem)
+    return region_world(path, free, start, tolerance, passage)

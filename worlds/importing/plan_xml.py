@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 from xml.parsers import expat
 
 import numpy as np
-from numpy.typing import NDArray
 
 from worlds.world import WorldError
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = ["Plan", "read_plan"]
 
@@ -62,7 +65,8 @@ def read_plan(path: Path) -> Plan:
                 doors += list(_points(path, field, segment.findall("point")[:1]))
     if not rooms:
         raise WorldError(
-            f"{path}: space", "expected a bounding_polygon of 3 points or more; got none"
+            f"{path}: space",
+            "expected a bounding_polygon of 3 points or more; got none",
         )
     # Pictures have y down.
     turn = np.array([scale, -scale])

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import shapely
 
+from worlds.fit import narrowest
 from worlds.jogs import straightened
-from worlds.world import Ring, World, make_world
+from worlds.world import Ring, World, WorldError, make_world
 
-__all__ = ["NoRegionError", "Place", "around", "opened", "straight", "to_world"]
+__all__ = ["Place", "region_world"]
 
 Place = tuple[float, float]
 
@@ -16,8 +19,56 @@ DECIMALS = 6
 """Coordinates are rounded to micrometres, so that walls are on their axis."""
 
 
+ROUNDS = 8
+"""Straightening may make a passage narrow, closing one may make a jog."""
+
+
 class NoRegionError(ValueError):
     """Nothing is free where it should be."""
+
+
+def region_world(
+    path: Path,
+    free: shapely.Geometry,
+    start: Place | None,
+    tolerance: float,
+    passage: float,
+    speck: float = 0.0,
+) -> World:
+    """Return a region of free space as a world, evened out and wide enough.
+
+    Parameters
+    ----------
+    path : Path
+        Where the free space is from; the world is named after it.
+    free : shapely.Geometry
+        Rectilinear polygons.
+    start : (x, y) or None
+        The region around it is kept; the largest if None.
+    tolerance, passage, speck : float
+        Jogs of at most `tolerance` are evened out, what is narrower than `passage`
+        is closed, in metres; islands of less than `speck` square metres are left
+        out.
+
+    Raises
+    ------
+    WorldError
+        If nothing is free, or nothing around the start.
+    """
+    try:
+        region = _without_specks(around(free, start), speck)
+        region = opened(region, passage, start)
+        for _ in range(ROUNDS):
+            before = region
+            region = unpinched(straight(region, tolerance), passage)
+            region = opened(region, passage, start)
+            if region.equals(before):
+                break
+        return to_world(region, path.stem)
+    except NoRegionError as error:
+        raise WorldError(f"{path}: start", str(error)) from None
+    except WorldError as error:
+        raise WorldError(f"{path}: {error.field}", error.fault) from None
 
 
 def around(free: shapely.Geometry, start: Place | None) -> shapely.Polygon:
@@ -55,13 +106,39 @@ def opened(
     """
     if passage == 0:
         return around(free, start)
-    half = passage / 2
-    core = free.buffer(-half, join_style="mitre")
+    core = free.difference(_rim(free, passage / 2))
     parts = [
-        _rounded(part.buffer(half, join_style="mitre"))
+        _rounded(part.union(_rim(part, passage / 2)))
         for part in shapely.get_parts(core)
+        if part.area > 0
     ]
-    return around(shapely.MultiPolygon([p for p in parts if p.area > 0]), start)
+    return around(shapely.union_all(parts), start)
+
+
+def unpinched(region: shapely.Polygon, passage: float) -> shapely.Polygon:
+    """Fill in where two outer corners leave less than `passage` between them.
+
+    An opening leaves such a place when both its sides can be reached.
+    """
+    while True:
+        gap = narrowest(to_world(region, "").rings)
+        if gap.width >= passage - 10.0**-DECIMALS:
+            return region
+        # The plug lies along the walls behind both corners, else it only touches.
+        (x0, y0), (x1, y1) = gap.low, gap.high
+        plug = shapely.box(x0, y0 - passage / 2, x1, y1 + passage / 2)
+        region = _rounded(around(region.difference(plug), None))
+
+
+def _rim(region: shapely.Geometry, half: float) -> shapely.Geometry:
+    """Return all that is within `half` of a wall, in x and in y."""
+    boxes = []
+    for ring in shapely.get_parts(region.boundary):
+        corners = shapely.get_coordinates(ring)
+        low = np.minimum(corners[:-1], corners[1:]) - half
+        high = np.maximum(corners[:-1], corners[1:]) + half
+        boxes.append(shapely.box(*low.T, *high.T))
+    return shapely.union_all(np.concatenate(boxes))
 
 
 def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:
@@ -98,3 +175,8 @@ def _ring(ring: shapely.LinearRing) -> Ring:
 
 def _rounded(polygon: shapely.Polygon) -> shapely.Polygon:
     return shapely.set_precision(polygon, 10.0**-DECIMALS)
+
+
+def _without_specks(region: shapely.Polygon, speck: float) -> shapely.Polygon:
+    holes = [ring for ring in region.interiors if shapely.Polygon(ring).area >= speck]
+    return shapely.Polygon(region.exterior, holes)

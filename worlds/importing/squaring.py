@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = ["cluster", "slanted_share", "square_up"]
 
@@ -191,7 +195,7 @@ def _steps(
     count = max(1, round(min(abs(dx), abs(dy)) / stair))
     points = np.linspace(low, high, count + 1)
     lines = []
-    for here, there in zip(points[:-1], points[1:], strict=True):
+    for here, there in itertools.pairwise(points):
         run, rise = np.abs(there - here).tolist()
         lines.append(_Line(0, float(here[1]), run, math.copysign(1, dx)))
         lines.append(_Line(1, float(there[0]), rise, math.copysign(1, dy)))
