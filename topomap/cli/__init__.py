@@ -53,5 +53,6 @@ def run() -> None:
 
 def _fail(reason: str, code: int) -> int:
     """Say on one line why, and return the exit code."""
-    sys.stderr.write(f"topomap: {' '.join(reason.split())}\n")
+    if reason:
+        sys.stderr.write(f"topomap: {' '.join(reason.split())}\n")
     return code

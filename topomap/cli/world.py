@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +12,8 @@ import typer
 from topomap.errors import InputError
 
 if TYPE_CHECKING:
-    from worlds.kind import Option
+    from worlds.importing.formats import Format
+    from worlds.kind import Kind
     from worlds.world import World
 
 __all__ = ["app"]
@@ -91,27 +93,24 @@ def list_(as_json: AsJson = False) -> None:
     """List the kinds that can be made and the formats that can be imported."""
     import worlds
 
-    kinds, formats = worlds.kinds(), worlds.formats()
+    tables: dict[str, Mapping[str, Kind | Format]] = {
+        "kinds": worlds.kinds(),
+        "formats": worlds.formats(),
+    }
     if as_json:
-        tables = {"kinds": kinds, "formats": formats}
         typer.echo(
             json.dumps(
                 {
-                    title: {
-                        name: {
-                            "summary": entry.summary,
-                            "options": _table(entry.options),
-                        }
-                        for name, entry in entries.items()
-                    }
-                    for title, entries in tables.items()
+                    title: {name: _entry(entry) for name, entry in table.items()}
+                    for title, table in tables.items()
                 }
             )
         )
         return
-    for title, entries in (("world make KIND", kinds), ("world import FILE", formats)):
-        typer.echo(f"topomap {title}")
-        for name, entry in entries.items():
+    uses = {"kinds": "make KIND", "formats": "import FILE"}
+    for title, table in tables.items():
+        typer.echo(f"topomap world {uses[title]}")
+        for name, entry in table.items():
             typer.echo(f"\n  {name}: {entry.summary}")
             for option in entry.options:
                 flag = f"--{option.name.replace('_', '-')} {option.default:g}"
@@ -119,16 +118,14 @@ def list_(as_json: AsJson = False) -> None:
         typer.echo("")
 
 
-def _table(options: tuple[Option, ...]) -> dict[str, dict[str, object]]:
-    return {
-        option.name: {
-            "default": option.default,
-            "least": option.least,
-            "most": option.most,
-            "meaning": option.meaning,
-        }
-        for option in options
+def _entry(entry: Kind | Format) -> dict[str, object]:
+    """Return a kind or a format as plain values."""
+    names = "default", "least", "most", "meaning"
+    options = {
+        option.name: {name: getattr(option, name) for name in names}
+        for option in entry.options
     }
+    return {"summary": entry.summary, "options": options}
 
 
 def _numbers(arguments: list[str]) -> dict[str, object]:
@@ -142,9 +139,10 @@ def _numbers(arguments: list[str]) -> dict[str, object]:
         if not equals:
             text = next(words, "")
         try:
-            numbers[flag[2:].replace("-", "_")] = float(text)
+            number = int(text) if text.isdecimal() else float(text)
         except ValueError:
             raise InputError("command line", flag, text, "a number") from None
+        numbers[flag[2:].replace("-", "_")] = number
     return numbers
 
 

@@ -10,6 +10,7 @@ import shapely
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from shapely.geometry.base import BaseGeometry
 
 __all__ = ["door_gaps"]
 
@@ -23,7 +24,7 @@ DEPTHS = 0.05, 0.15, 0.25, 0.4
 def door_gaps(
     doors: NDArray[np.float64],
     walls: NDArray[np.float64],
-    free: shapely.Geometry,
+    free: BaseGeometry,
     width: float,
     thickness: float,
     stub: float,
@@ -36,7 +37,7 @@ def door_gaps(
         A point near each door.
     walls : array, shape (W, 4)
         Ends x0, y0, x1, y1 of walls along the axes.
-    free : shapely.Geometry
+    free : BaseGeometry
         Free space between the walls, without doors.
     width, thickness : float
         Of a door, along the wall, and of the wall.
@@ -60,34 +61,34 @@ def door_gaps(
 def _gap(
     door: tuple[float, float],
     walls: NDArray[np.float64],
-    free: shapely.Geometry,
+    free: BaseGeometry,
     width: float,
     thickness: float,
     stub: float,
 ) -> shapely.Polygon | None:
     """Try the walls near a door, the nearest first, shallow gaps first."""
     segments = shapely.linestrings(walls.reshape(-1, 2, 2))
-    distances = shapely.distance(segments, shapely.Point(door))
+    distances = np.asarray(shapely.distance(segments, shapely.Point(door)))
     near = np.argsort(distances, kind="stable")
     near = near[distances[near] <= REACH][:8]
-    for k, extra in product(near, DEPTHS):
-        x0, _y0, x1, _y1 = walls[k].tolist()
+    for k, extra in product(near.tolist(), DEPTHS):
+        x0, y0, x1, _ = walls[k].tolist()
         across = 0 if x0 == x1 else 1
-        level, at = walls[k, across], door[1 - across]
+        level, at = (x0, y0)[across], door[1 - across]
         depth = thickness / 2 + extra
         sides = [_free_way(free, level + d, across, at) for d in (-depth, depth)]
         middle = _middle(sides, at, width, stub)
         if middle is None:
             continue
-        low, high = np.empty(2), np.empty(2)
-        low[across], high[across] = level - depth, level + depth
-        low[1 - across], high[1 - across] = middle - width / 2, middle + width / 2
-        return shapely.box(*low.tolist(), *high.tolist())
+        along = middle - width / 2, middle + width / 2
+        if across == 0:
+            return shapely.box(level - depth, along[0], level + depth, along[1])
+        return shapely.box(along[0], level - depth, along[1], level + depth)
     return None
 
 
 def _free_way(
-    free: shapely.Geometry, level: float, across: int, at: float
+    free: BaseGeometry, level: float, across: int, at: float
 ) -> tuple[float, float] | None:
     """Return the ends of the free stretch beside a wall that is nearest to `at`."""
     ends = np.empty((2, 2))

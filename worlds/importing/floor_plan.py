@@ -9,7 +9,7 @@ import shapely
 
 from worlds.importing.doors import door_gaps
 from worlds.importing.plan_xml import read_plan
-from worlds.importing.region import Place, region_world
+from worlds.importing.region import Place, region_world, thick
 from worlds.importing.squaring import slanted_share, square_up
 from worlds.world import World, WorldError
 
@@ -47,9 +47,7 @@ def import_floor_plan(
     rooms = square_up(plan.rooms, angle, tolerance, stair)
     lines = [shapely.get_coordinates(room.exterior) for room in rooms]
     walls = np.concatenate([np.hstack([ring[:-1], ring[1:]]) for ring in lines])
-    low = np.minimum(walls[:, :2], walls[:, 2:]) - wall / 2
-    high = np.maximum(walls[:, :2], walls[:, 2:]) + wall / 2
-    solid = shapely.union_all(shapely.box(*low.T, *high.T))
+    solid = shapely.union_all([thick(ring, wall / 2) for ring in lines])
     free = shapely.union_all(rooms).difference(solid)
     gaps = door_gaps(plan.doors, walls, free, door, wall, tolerance)
     free = shapely.union_all([free, *gaps])

@@ -14,6 +14,7 @@ from worlds.world import WorldError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from shapely.geometry.base import BaseGeometry
 
     from worlds.importing.region import Place
 
@@ -51,7 +52,7 @@ def read_picture(path: Path) -> NDArray[np.uint8]:
                 if width * height > MOST_PIXELS:
                     raise WorldError(
                         f"{path}",
-                        f"expected at most {MOST_PIXELS} pixels; got {width} x {height}",
+                        f"expected at most {MOST_PIXELS} pixels; got {width}x{height}",
                     )
                 if picture.mode in ("RGBA", "LA", "P", "PA"):
                     seen = picture.convert("RGBA")
@@ -75,7 +76,7 @@ def read_picture(path: Path) -> NDArray[np.uint8]:
 
 def trace(
     is_free: NDArray[np.bool_], size: tuple[float, float], origin: Place
-) -> shapely.Geometry:
+) -> BaseGeometry:
     """Return free pixels as polygons.
 
     Parameters
@@ -89,7 +90,7 @@ def trace(
 
     Returns
     -------
-    shapely.Geometry
+    BaseGeometry
         Valid; pixels that only touch at a corner are not joined.
     """
     rows, columns = is_free.shape

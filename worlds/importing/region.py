@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
@@ -11,7 +12,11 @@ from worlds.fit import narrowest
 from worlds.jogs import straightened
 from worlds.world import Ring, World, WorldError, make_world
 
-__all__ = ["Place", "region_world"]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+    from shapely.geometry.base import BaseGeometry
+
+__all__ = ["Place", "region_world", "thick"]
 
 Place = tuple[float, float]
 
@@ -29,7 +34,7 @@ class NoRegionError(ValueError):
 
 def region_world(
     path: Path,
-    free: shapely.Geometry,
+    free: BaseGeometry,
     start: Place | None,
     tolerance: float,
     passage: float,
@@ -41,7 +46,7 @@ def region_world(
     ----------
     path : Path
         Where the free space is from; the world is named after it.
-    free : shapely.Geometry
+    free : BaseGeometry
         Rectilinear polygons.
     start : (x, y) or None
         The region around it is kept; the largest if None.
@@ -71,7 +76,7 @@ def region_world(
         raise WorldError(f"{path}: {error.field}", error.fault) from None
 
 
-def around(free: shapely.Geometry, start: Place | None) -> shapely.Polygon:
+def around(free: BaseGeometry, start: Place | None) -> shapely.Polygon:
     """Return the part of free space around a start, or the largest without one.
 
     Raises
@@ -79,7 +84,9 @@ def around(free: shapely.Geometry, start: Place | None) -> shapely.Polygon:
     NoRegionError
         If there is no free space, or none at the start.
     """
-    parts = [part for part in shapely.get_parts(free) if part.area > 0]
+    parts: list[shapely.Polygon] = [
+        part for part in shapely.get_parts(free) if part.area > 0
+    ]
     if not parts:
         raise NoRegionError("no free space is left")
     if start is None:
@@ -91,9 +98,7 @@ def around(free: shapely.Geometry, start: Place | None) -> shapely.Polygon:
     raise NoRegionError(f"the start {start} is not in free space")
 
 
-def opened(
-    free: shapely.Geometry, passage: float, start: Place | None
-) -> shapely.Polygon:
+def opened(free: BaseGeometry, passage: float, start: Place | None) -> shapely.Polygon:
     """Close all that is narrower than `passage`, and keep one region.
 
     This is the morphological opening with a square: what remains is where a
@@ -130,15 +135,22 @@ def unpinched(region: shapely.Polygon, passage: float) -> shapely.Polygon:
         region = _rounded(around(region.difference(plug), None))
 
 
-def _rim(region: shapely.Geometry, half: float) -> shapely.Geometry:
+def _rim(region: BaseGeometry, half: float) -> BaseGeometry:
     """Return all that is within `half` of a wall, in x and in y."""
-    boxes = []
-    for ring in shapely.get_parts(region.boundary):
-        corners = shapely.get_coordinates(ring)
-        low = np.minimum(corners[:-1], corners[1:]) - half
-        high = np.maximum(corners[:-1], corners[1:]) + half
-        boxes.append(shapely.box(*low.T, *high.T))
-    return shapely.union_all(np.concatenate(boxes))
+    rings = shapely.get_parts(shapely.get_rings(shapely.get_parts(region)))
+    return shapely.union_all([thick(shapely.get_coordinates(r), half) for r in rings])
+
+
+def thick(corners: NDArray[np.float64], half: float) -> BaseGeometry:
+    """Return walls along the axes, end to end, with a thickness of twice `half`."""
+    low = np.minimum(corners[:-1], corners[1:]) - half
+    high = np.maximum(corners[:-1], corners[1:]) + half
+    return shapely.union_all(
+        [
+            shapely.box(x0, y0, x1, y1)
+            for (x0, y0), (x1, y1) in zip(low.tolist(), high.tolist(), strict=True)
+        ]
+    )
 
 
 def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:

@@ -91,9 +91,12 @@ def _number(
     default: float | None = None,
 ) -> float:
     value = fields.get(name, default)
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        if math.isfinite(value) and least <= value <= most:
-            return float(value)
+    if (
+        isinstance(value, int | float)
+        and not isinstance(value, bool)
+        and least <= value <= most
+    ):
+        return float(value)
     raise WorldError(
         f"{path}: {name}",
         f"expected a number from {least:g} to {most:g}; got {value!r}",
