@@ -26,7 +26,8 @@ def compare(
     from topomap.cli.console import say, show_json
     from topomap.comparison import compare_maps
     from topomap.errors import InputError
-    from topomap.files import load_map, load_world
+    from topomap.files.map_files import load_map
+    from topomap.files.world_files import load_world
     from topomap.truth import true_maps
 
     if len(maps) != (2 if world is None else 1):

@@ -35,6 +35,7 @@ def reproduce(
     from topomap.experiments.catalogue import catalogue, find
     from topomap.experiments.reporting import write_report
     from topomap.experiments.running import run_experiment
+    from topomap.files.atomic import make_folder
 
     if not names:
         for experiment in catalogue().values():
@@ -44,7 +45,7 @@ def reproduce(
         if value is not None and value < 1:
             raise InputError(option, "", value, "a number of at least 1")
     experiments = [find(name) for name in names]
-    output.mkdir(parents=True, exist_ok=True)
+    make_folder(output)
     for experiment in experiments:
         count = trials or experiment.trials
         with progress(experiment.name) as shown:
