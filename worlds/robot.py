@@ -75,7 +75,7 @@ class Robot:
         self._normals: list[float] = []
         self.eyes = Eyes(profile, arena, self.disc, self.normal)
         self._x, self._y = start.x, start.y
-        self._wheels = (0.0, 0.0)
+        self._wheels = self._rolled = (0.0, 0.0)
         self._target = (0.0, 0.0)
         self._seen = self._missed = 0
         self._due = 0.0
@@ -109,13 +109,13 @@ class Robot:
     @property
     def is_still(self) -> bool:
         """Whether the wheels stand."""
-        return self._wheels == (0.0, 0.0)
+        return self._wheels == self._rolled == (0.0, 0.0)
 
     def act(self) -> None:
         """Let the wheels follow what was asked, as fast as they can, and slip."""
         profile = self.profile
         gain = profile.acceleration * self.arena.time_step
-        left, right = self._wheels
+        left, right = self._rolled = self._wheels
         want_left, want_right = self._target
         left += min(max(want_left - left, -gain), gain)
         right += min(max(want_right - right, -gain), gain)
@@ -134,7 +134,7 @@ class Robot:
         """Count the wheels and read the rangers after a time step."""
         profile = self.profile
         dt = self.arena.time_step
-        left, right = self._wheels
+        left, right = self._rolled  # the step moves bodies first, then pushes them
         if profile.encoder_noise:
             left *= 1.0 + profile.encoder_noise * self.normal()
             right *= 1.0 + profile.encoder_noise * self.normal()
