@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from behaviours.parameters import Parameters
 from behaviours.port import Reason, Side
-from worlds.profiles import Profile, looks_along
+from worlds.profile import Profile, looks_along
 
 __all__ = ["Change", "WallTrack"]
 
