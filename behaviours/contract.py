@@ -11,7 +11,8 @@ from dataclasses import dataclass
 
 from behaviours.parameters import Parameters
 from behaviours.port import Body, Outcome
-from behaviours.situations import Situation, Step, situations
+from behaviours.situation import Situation, Step
+from behaviours.situations import situations
 
 __all__ = ["ContractError", "Failure", "MakeBody", "check_body"]
 

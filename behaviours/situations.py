@@ -7,9 +7,6 @@ otherwise the robot follows it eastward, the wall on its right.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TypeAlias
-
 from behaviours.parameters import Parameters
 from behaviours.port import (
     Align,
@@ -17,43 +14,14 @@ from behaviours.port import (
     Direction,
     Follow,
     Move,
-    Primitive,
     Reason,
     Sensor,
     Side,
     Turn,
 )
+from behaviours.situation import Corners, Situation, Step, mirrored
 
-__all__ = ["Situation", "Step", "situations"]
-
-Corners: TypeAlias = tuple[tuple[float, float], ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """A primitive and what must come of it; None where anything may."""
-
-    primitive: Primitive
-    reason: Reason
-    distance: float | None = None
-    front: float | None = None
-    left: float | None = None
-    right: float | None = None
-    shift: float | None = None
-    clearance: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Situation:
-    """A small world, a start, and what happens there."""
-
-    name: str
-    ring: Corners
-    """Corners in metres, counter-clockwise."""
-    x: float
-    y: float
-    heading: float
-    steps: tuple[Step, ...]
+__all__ = ["situations"]
 
 
 def situations(parameters: Parameters) -> tuple[Situation, ...]:
@@ -75,8 +43,8 @@ def situations(parameters: Parameters) -> tuple[Situation, ...]:
     """
     ahead = _straight_on(parameters)
     along = _along_a_wall(parameters)
-    mirrored = [_mirrored(s) for s in along if s.name.startswith("follow to")]
-    return (*ahead, *along, *mirrored)
+    on_the_left = [mirrored(s) for s in along if s.name.startswith("follow to")]
+    return (*ahead, *along, *on_the_left)
 
 
 def _straight_on(p: Parameters) -> list[Situation]:
@@ -261,26 +229,3 @@ def _along_a_wall(p: Parameters) -> list[Situation]:
 
 def _room(width: float, height: float) -> Corners:
     return ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
-
-
-def _mirrored(situation: Situation) -> Situation:
-    """Return the situation in a mirror: left and right change places."""
-    return Situation(
-        situation.name + ", on the left",
-        tuple((x, -y) for x, y in reversed(situation.ring)),
-        situation.x,
-        -situation.y,
-        -situation.heading,
-        tuple(_mirrored_step(step) for step in situation.steps),
-    )
-
-
-def _mirrored_step(step: Step) -> Step:
-    """Return a step with its sides exchanged."""
-    primitive = step.primitive
-    if isinstance(primitive, (Turn, Align, Follow)):
-        primitive = replace(primitive, side=primitive.side.opposite)
-    shift = None if step.shift is None else -step.shift
-    return replace(
-        step, primitive=primitive, left=step.right, right=step.left, shift=shift
-    )

@@ -128,9 +128,10 @@ class Arena:
         self._substeps = 1
         self._space = _walled_space(self.walls)
         self._disc_of: dict[pymunk.Shape, Disc] = {}
-        self._space.on_collision(
-            ROBOT, None, begin=_begin, separate=_separate, data=self._disc_of
-        )
+        for other in (WALL, ROBOT):
+            self._space.on_collision(
+                ROBOT, other, begin=_begin, separate=_separate, data=self._disc_of
+            )
 
     @property
     def clock(self) -> float:

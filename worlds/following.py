@@ -33,12 +33,10 @@ def follow(robot: Robot, primitive: Follow) -> Control[Outcome]:
     yield from settle(robot)
     run.begin()
     if not run.track.is_on_wall:
-        if edge is not None:
-            yield from go(robot, -edge)
-            return run.outcome(Reason.RECEDED)
-        yield from run.look_round()
+        if edge is None or edge < run.track.nearest:
+            yield from run.look_round()
         if not run.track.is_on_wall:
-            yield from go(robot, run.start - robot.odometer)
+            yield from go(robot, run.start - (edge or 0.0) - robot.odometer)
             return run.outcome(Reason.RECEDED)
     reason = yield from run.regulate()
     front = -1.0

@@ -8,14 +8,13 @@ controllers at a fixed time step.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 from behaviours.port import (
     Align,
     Approach,
-    Behaviour,
     Follow,
     Guide,
     Move,
@@ -35,11 +34,9 @@ if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from worlds.arena import Arena
     from worlds.pose import Pose
-    from worlds.profiles import Profile
+    from worlds.profile import Profile
 
-__all__ = ["PhysicalBody", "run_together"]
-
-T = TypeVar("T")
+__all__ = ["PhysicalBody"]
 
 CONTROLLERS: Mapping[type, Callable[[Robot, Any], Control[Outcome]]] = {
     Approach: approach,
@@ -239,41 +236,3 @@ class PhysicalBody:
     def _outcome(self, reason: Reason) -> Outcome:
         distance = max(self._robot.odometer - self._start, 0.0)
         return Outcome(distance, reason, self._robot.readings())
-
-
-def run_together(
-    arena: Arena, crew: Sequence[tuple[Behaviour[T], PhysicalBody]]
-) -> list[T]:
-    """Let several bodies carry out their behaviours at the same time.
-
-    Parameters
-    ----------
-    arena : Arena
-        In which all the bodies are.
-    crew : sequence of (behaviour, body)
-        Behaviours not yet started, each with the body that carries it out.
-
-    Returns
-    -------
-    list
-        What the behaviours return, in the order of the crew. A robot whose
-        behaviour has ended stands where it is.
-    """
-    results: dict[int, T] = {}
-
-    def hand_over(k: int, outcome: Outcome | None) -> None:
-        """Give a behaviour its outcome and its body the next primitive."""
-        behaviour, body = crew[k]
-        try:
-            body.begin(next(behaviour) if outcome is None else behaviour.send(outcome))
-        except StopIteration as end:
-            results[k] = end.value
-
-    for k in range(len(crew)):
-        hand_over(k, None)
-    while len(results) < len(crew):
-        for k, (_, body) in enumerate(crew):
-            while k not in results and (outcome := body.poll()) is not None:
-                hand_over(k, outcome)
-        arena.step()
-    return [results[k] for k in range(len(crew))]

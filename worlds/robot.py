@@ -14,13 +14,15 @@ import numpy as np
 from behaviours.port import Readings
 from worlds.arena import Arena
 from worlds.pose import Pose
-from worlds.profiles import Profile, looks_along
+from worlds.profile import Profile, looks_along
 from worlds.sensors import Eyes
 
 __all__ = ["Robot"]
 
 CLIP = 2.5
 """Errors of a leg or a turn are drawn up to so many standard deviations."""
+BATCH = 256
+"""Errors are drawn for so many time steps at once."""
 MEMORY = 64
 """Side readings that the robot keeps of the present leg."""
 AGREE = 1 / 6
@@ -73,9 +75,12 @@ class Robot:
         self._rng = rng
         self._sigma = sigma
         self._normals: list[float] = []
+        self._rows: list[list[float]] = []
+        self._miss_left = self._miss_right = 0.0
+        self._is_uneven = profile.slip > 0 or profile.encoder_noise > 0
         self.eyes = Eyes(profile, arena, self.disc, self.normal)
         self._x, self._y = start.x, start.y
-        self._wheels = (0.0, 0.0)
+        self._wheels = self._rolled = (0.0, 0.0)
         self._target = (0.0, 0.0)
         self._seen = self._missed = 0
         self._due = 0.0
@@ -109,20 +114,23 @@ class Robot:
     @property
     def is_still(self) -> bool:
         """Whether the wheels stand."""
-        return self._wheels == (0.0, 0.0)
+        return self._wheels == self._rolled == (0.0, 0.0)
 
     def act(self) -> None:
         """Let the wheels follow what was asked, as fast as they can, and slip."""
         profile = self.profile
         gain = profile.acceleration * self.arena.time_step
-        left, right = self._wheels
+        left, right = self._rolled = self._wheels
         want_left, want_right = self._target
         left += min(max(want_left - left, -gain), gain)
         right += min(max(want_right - right, -gain), gain)
         self._wheels = (left, right)
-        if profile.slip:
-            left *= 1.0 + profile.slip * self.normal()
-            right *= 1.0 + profile.slip * self.normal()
+        if self._is_uneven:
+            if not self._rows:
+                self._rows = self._rng.standard_normal((BATCH, 4)).tolist()
+            slip_left, slip_right, self._miss_left, self._miss_right = self._rows.pop()
+            left *= 1.0 + profile.slip * slip_left
+            right *= 1.0 + profile.slip * slip_right
         speed = 0.5 * (left + right) * self._scale
         disc = self.disc
         disc.speed = speed
@@ -134,10 +142,9 @@ class Robot:
         """Count the wheels and read the rangers after a time step."""
         profile = self.profile
         dt = self.arena.time_step
-        left, right = self._wheels
-        if profile.encoder_noise:
-            left *= 1.0 + profile.encoder_noise * self.normal()
-            right *= 1.0 + profile.encoder_noise * self.normal()
+        left, right = self._rolled  # the step moves bodies first, then pushes them
+        left *= 1.0 + profile.encoder_noise * self._miss_left
+        right *= 1.0 + profile.encoder_noise * self._miss_right
         way = 0.5 * (left + right) * dt
         turn = (right - left) / profile.wheel_base * dt
         self.odometer += way
@@ -167,7 +174,7 @@ class Robot:
     def normal(self) -> float:
         """Draw from the standard normal distribution."""
         if not self._normals:
-            self._normals = self._rng.standard_normal(1024).tolist()
+            self._normals = self._rng.standard_normal(4 * BATCH).tolist()
         return self._normals.pop()
 
     def _look(self) -> None:

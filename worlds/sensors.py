@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from worlds.profiles import Profile, Ranger, looks_along
+from worlds.profile import Profile, Ranger, looks_along
 
 if TYPE_CHECKING:
     from worlds.arena import Arena, Disc

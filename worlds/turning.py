@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from behaviours.port import Align, Outcome, Reason, Side, Turn
-from worlds.profiles import Ranger, looks_along
+from worlds.profile import Ranger, looks_along
 from worlds.robot import Robot
 from worlds.scan import wall_of_scan
 from worlds.straight import SURE, Control, go, settle, stop

@@ -13,12 +13,14 @@ from dataclasses import dataclass
 
 from behaviours.parameters import Parameters
 from behaviours.port import Reason, Side
-from worlds.profiles import Profile, looks_along
+from worlds.profile import Profile, looks_along
 
 __all__ = ["Change", "WallTrack"]
 
 CONFIRM = 4
-"""So many misfits in a row are a change of the wall."""
+"""So many misfits in a row that agree are a step of the wall."""
+GONE = 3
+"""So many in a row that are too far are the wall's end."""
 SEED = 3
 """So many readings that agree are a wall."""
 
@@ -53,6 +55,8 @@ class WallTrack:
         self.lean_variance = 0.0
         """In squared radians."""
         self.change: Change | None = None
+        self.nearest = abs(ranger.y) + 1.05 * ranger.near
+        """A side reading of this or less, in metres, may be of anything nearer."""
         self._sense = -side.value
         self.mount = ranger.x
         """How far ahead of the centre the side ranger sits, in metres."""
@@ -140,9 +144,9 @@ class WallTrack:
         """
         misfits = self._misfits
         last = [reading for _, reading in misfits[-CONFIRM:]]
-        if min(last[-2:]) - expected > self._parameters.least_recess:
+        if min(last[-GONE:]) - expected > self._parameters.least_recess:
             reason = Reason.RECEDED
-            is_settled = len(last) >= 2
+            is_settled = len(last) >= GONE
         else:
             reason = Reason.STEPPED
             is_settled = (

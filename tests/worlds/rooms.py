@@ -20,7 +20,9 @@ def random_room(rng, cells, least=0.8, most=2.5):
         cell = rim[int(rng.integers(len(rim)))]
         if _is_one_ring(_union(taken | {cell}, x, y)):
             taken.add(cell)
-    return make_world(list(_union(taken, x, y).exterior.coords)[:-1], name="random room")
+    return make_world(
+        list(_union(taken, x, y).exterior.coords)[:-1], name="random room"
+    )
 
 
 def random_start(rng, room, margin):

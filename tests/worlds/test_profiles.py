@@ -6,7 +6,8 @@ from dataclasses import replace
 import pytest
 
 from behaviours.parameters import Parameters
-from worlds.profiles import EPUCK, GENERIC, PROFILES, ProfileError, Ranger
+from worlds.profile import ProfileError, Ranger
+from worlds.profiles import EPUCK, GENERIC, PROFILES
 
 
 @pytest.mark.parametrize("profile", PROFILES.values(), ids=PROFILES)

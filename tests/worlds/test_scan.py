@@ -59,16 +59,11 @@ def test_the_stated_variance_holds(normal, seed):
 @given(st.floats(-0.3, 0.3), st.sampled_from(Side))
 def test_at_an_outer_corner_the_wall_left_behind_is_taken(lean, side):
     """A block whose corner points at the robot, which looks to its side."""
-    corner = [(0.3, 0.0, 3.0, 0.0), (0.3, 0.0, 0.3, 3.0)]
-    walls = rotated([(x - 0.05, y + 0.02, u - 0.05, v + 0.02) for x, y, u, v in corner], 0)
-    walls = rotated(walls, -math.pi / 4)
-    shift = 0.2
-    walls = rotated([(x + shift, y, u + shift, v) for x, y, u, v in walls], lean)
+    walls = rotated([(0.3, 0.0, 2.3, 2.0), (0.3, 0.0, 2.3, -2.0)], lean)
     wall = wall_of_scan(ranges_to(walls, ANGLES), 0.02, side)
-    turned = lean + side.value * -math.pi / 4
-    assert wall.normal == pytest.approx(turned, abs=0.02)
-    assert wall.behind == pytest.approx(wall.distance, rel=0.5)
-    assert wall.behind > 0
+    assert wall.normal == pytest.approx(lean - side.value * math.pi / 4, abs=0.02)
+    assert wall.distance == pytest.approx(0.3 / math.sqrt(2), abs=0.01)
+    assert wall.behind == pytest.approx(0.3 / math.sqrt(2), abs=0.01)
 
 
 def test_in_an_inner_corner_the_nearer_wall_is_taken():
@@ -81,8 +76,9 @@ def test_in_an_inner_corner_the_nearer_wall_is_taken():
 
 @pytest.mark.parametrize(("side", "y"), [(Side.RIGHT, -0.1), (Side.LEFT, 0.1)])
 def test_a_wall_that_ended_before_the_robot_came_abeam_is_noticed(side, y):
-    end = -side.value * -3.0 * -1.0
-    wall = wall_of_scan(ranges_to([(0.3, y, 0.3, end)], ANGLES), 0.02, side)
+    wall = wall_of_scan(
+        ranges_to([(0.3, y, 0.3, 3.0 * side.value)], ANGLES), 0.02, side
+    )
     assert wall.behind == pytest.approx(0.1, abs=0.02)
 
 
