@@ -184,7 +184,7 @@ def _command_lines(command: Any, name: str) -> Iterator[str]:
         for taken in command.params:
             words = " ".join((getattr(taken, "help", None) or "").split())
             if taken.param_type_name == "argument":
-                label = taken.make_metavar(command.context_class(command))
+                label = taken.metavar or taken.name.upper()
             else:
                 label = "`, `".join(taken.opts)
             default = "" if callable(taken.default) else taken.default
