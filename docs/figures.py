@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import sys
 from io import BytesIO
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 
+import worlds
 from behaviours import Parameters, run
 from topomap.boundary import map_boundary
 from topomap.closers import make_closer
@@ -93,6 +95,22 @@ def truth(world: World) -> Figure:
     return figure
 
 
+def kinds() -> Figure:
+    """Draw one world of each kind."""
+    names = list(worlds.kinds())
+    figure = Figure(figsize=(8, 6), layout="constrained")
+    grid = figure.subplots(3, math.ceil(len(names) / 3))
+    for ax, name in zip_longest(grid.flat, names):
+        ax.set_axis_off()
+        if name is not None:
+            world = worlds.make(name, np.random.default_rng(4))
+            _draw_walls(world, ax)
+            ax.set_title(name, fontsize=9)
+            ax.set_aspect("equal")
+            ax.autoscale_view()
+    return figure
+
+
 PILLARS = make_world(
     [(0, 0), (9, 0), (9, 6), (5, 6), (5, 5), (3.4, 5), (3.4, 6), (0, 6)],
     [
@@ -118,6 +136,7 @@ FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
         "What every map is held to: the true map of each ring, from geometry alone.",
         lambda: truth(PILLARS),
     ),
+    "kinds": ("One world of each kind, as `world make` draws them.", kinds),
 }
 """Name of the picture: its caption, and what draws it."""
 
@@ -138,11 +157,15 @@ def _axes(world: World) -> tuple[Figure, Axes]:
     """Return axes with the walls of a world drawn."""
     figure = Figure(figsize=(7, 5), layout="constrained")
     ax = figure.subplots()
+    _draw_walls(world, ax)
+    return figure, ax
+
+
+def _draw_walls(world: World, ax: Axes) -> None:
     outline = Outline.make_compound_path(
         *[Outline([*ring, ring[0]], closed=True) for ring in world.rings]
     )
-    ax.add_patch(PathPatch(outline, facecolor="#f2f0ea", edgecolor="#222222", lw=2))
-    return figure, ax
+    ax.add_patch(PathPatch(outline, facecolor="#f2f0ea", edgecolor="#222222", lw=1.6))
 
 
 def _turned(point: tuple[float, float] | None, angle: float) -> tuple[float, float]:

@@ -21,6 +21,9 @@ from markdown.inlinepatterns import InlineProcessor
 from markdown.preprocessors import Preprocessor
 from mkdocs.structure.files import File
 
+import worlds
+from worlds.profiles import PROFILES
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
@@ -34,7 +37,10 @@ ROOMS = ("topomap", "behaviours", "evidence", "merge", "worlds")
 
 
 def reference() -> Iterator[tuple[str, str | bytes]]:
-    """Yield a page a room with every public name of its modules."""
+    """Yield a page a room with every public name of its modules.
+
+    The commands are not among them: their page is made from the program.
+    """
     for room in ROOMS:
         lines = [f"# {room}", ""]
         for path in sorted((ROOT / room).rglob("*.py")):
@@ -42,7 +48,7 @@ def reference() -> Iterator[tuple[str, str | bytes]]:
             parts = path.relative_to(ROOT).with_suffix("").parts
             if path.name == "__init__.py" and path.parent == ROOT / room:
                 lines += [ast.get_docstring(tree) or "", ""]
-            elif _has_public_names(tree):
+            elif "cli" not in parts and _has_public_names(tree):
                 name = ".".join(parts).removesuffix(".__init__")
                 lines += [f"::: {name}", ""]
         yield f"reference/{room}.md", "\n".join(lines)
@@ -91,10 +97,34 @@ def usage() -> str:
     return "\n".join(_command_lines(typer.main.get_command(app), "topomap"))
 
 
+def kinds() -> str:
+    """Return a table of the kinds of world and their options."""
+    lines = ["| kind | what it is | options and defaults |", "|---|---|---|"]
+    for kind in worlds.kinds().values():
+        options = ", ".join(f"`{o.name}` {o.default:g}" for o in kind.options)
+        lines.append(f"| `{kind.name}` | {kind.summary} | {options} |")
+    return "\n".join(lines)
+
+
+def profiles() -> str:
+    """Return a table of the physical robots."""
+    lines = ["| profile | rangers | r0 | r_min | r_max |", "|---|---|---|---|---|"]
+    for name, profile in PROFILES.items():
+        kept = profile.parameters
+        lengths = f"{kept.r0:g} m | {kept.r_min:g} m | {kept.r_max:g} m"
+        lines.append(f"| `{name}` | {len(profile.rangers)} | {lengths} |")
+    return "\n".join(lines)
+
+
+TABLES = {"usage": usage, "kinds": kinds, "profiles": profiles}
+"""What stands for ``<!-- name -->`` on a page."""
+
+
 def on_page_markdown(markdown: str, **_: object) -> str:
-    """Fill in what the commands take."""
-    if "<!-- usage -->" in markdown:
-        return markdown.replace("<!-- usage -->", usage())
+    """Fill in the tables that pages ask for."""
+    for name, table in TABLES.items():
+        if f"<!-- {name} -->" in markdown:
+            markdown = markdown.replace(f"<!-- {name} -->", table())
     return markdown
 
 
@@ -154,7 +184,7 @@ def _command_lines(command: Any, name: str) -> Iterator[str]:
         for taken in command.params:
             words = " ".join((getattr(taken, "help", None) or "").split())
             if taken.param_type_name == "argument":
-                label = taken.make_metavar(command.context_class(command))
+                label = taken.metavar or taken.name.upper()
             else:
                 label = "`, `".join(taken.opts)
             default = "" if callable(taken.default) else taken.default
