@@ -66,7 +66,7 @@ def draw_world(world: World, ax: Axes) -> None:
         spine.set_visible(False)
 
 
-def save_picture(path: str | PathLike[str], draw: Callable[[Axes], None]) -> None:
+def save_picture(path: str | PathLike[str], draw: Callable[[Axes], object]) -> None:
     """Make a picture of what a function draws, whole or not at all.
 
     Parameters

@@ -34,10 +34,10 @@ def compare(
         expected = "two maps" if world is None else "one map beside --world"
         raise InputError("compare", "", [str(path) for path in maps], expected)
     chart = load_map(maps[0])
-    if world is None:
-        references = (load_map(maps[1]),)
-    else:
-        references = true_maps(load_world(world), chart.parameters or Parameters())
+    robot = chart.parameters or Parameters()
+    references = (
+        (load_map(maps[1]),) if world is None else true_maps(load_world(world), robot)
+    )
     found = compare_maps(chart, *references)
     rmse = found.position_rmse
     if as_json:

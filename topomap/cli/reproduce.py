@@ -30,7 +30,7 @@ def reproduce(
     ] = None,
 ) -> None:
     """Run named experiments; a run that was stopped goes on where it was."""
-    from topomap.cli.console import progress, say
+    from topomap.cli.console import Progress, progress, say
     from topomap.errors import InputError
     from topomap.experiments.catalogue import catalogue, find
     from topomap.experiments.reporting import write_report
@@ -49,6 +49,10 @@ def reproduce(
     for experiment in experiments:
         count = trials or experiment.trials
         with progress(experiment.name) as shown:
+
+            def tell(done: int, of: int, shown: Progress = shown) -> None:
+                shown.update(f"{done} of {of} batches")
+
             done = run_experiment(
                 experiment,
                 output / f"{experiment.name}.csv",
@@ -56,7 +60,7 @@ def reproduce(
                 seed=seed,
                 workers=workers or os.cpu_count() or 1,
                 scheduler=scheduler,
-                progress=lambda k, n, shown=shown: shown.update(f"{k} of {n} batches"),
+                progress=tell,
             )
         command = f"topomap reproduce {experiment.name} --trials {count} --seed {seed}"
         say(write_report(experiment, done, output, command))
