@@ -47,6 +47,8 @@ TURN_TIME = 1.0
 """Seconds for a quarter turn."""
 EPS = 1e-9
 """Lengths that differ by less, in metres, are one length."""
+NEAR = 1e-6
+"""A wall that is off r0 by more, in metres, is one that has stepped."""
 
 
 class IdealBody:
@@ -217,6 +219,8 @@ class IdealBody:
         reach = look.beside(self._u, self._v, side)
         if reach > r_max + EPS:
             return self._advance(0.0, Reason.RECEDED)
+        if abs(reach - r0) > NEAR:
+            return self._advance(0.0, Reason.STEPPED)
         room = self._room_ahead(r0)
         change, beyond = look.next_change(self._u, self._v, side, reach)
         way = min(room, change)
