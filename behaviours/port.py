@@ -57,7 +57,7 @@ class Side(Enum):
     @property
     def opposite(self) -> Side:
         """The other side."""
-        return Side(-self.value)
+        return Side.LEFT if self is Side.RIGHT else Side.RIGHT
 
 
 class Direction(Enum):

@@ -1,0 +1,169 @@
+"""Automata as tables: states are actions, rows are the arrows between them.
+
+As in [K] Annex C a state stands for a primitive action and an arrow for the
+condition under which that action ended. A table is plain data: it is checked
+when it is defined, followed one step at a time, and printed or drawn from the
+very rows that run.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from typing import Generic, TypeAlias, TypeVar
+
+from behaviours.port import Outcome, Primitive
+
+__all__ = ["Automaton", "Row", "perform"]
+
+S = TypeVar("S", bound=Enum)
+
+
+@dataclass(frozen=True, slots=True)
+class Row(Generic[S]):
+    """When the action of state `here` ended as `seen` says, go to `there`."""
+
+    here: S
+    seen: Callable[[Outcome], bool]
+    there: S
+
+
+@dataclass(frozen=True, slots=True)
+class Automaton(Generic[S]):
+    """Rows are tried from the top; the first that holds is taken.
+
+    Raises
+    ------
+    ValueError
+        If there is no start, a state can never be entered, an end is left, or
+        a state that is no end is never left.
+
+    Examples
+    --------
+    >>> from enum import Enum
+    >>> from behaviours.port import Outcome, Readings, Reason
+    >>> State = Enum("State", "KNOCK ENTER")
+    >>> def opened(outcome): return outcome.reason is Reason.DONE
+    >>> door = Automaton(
+    ...     (State.KNOCK,), (Row(State.KNOCK, opened, State.ENTER),), (State.ENTER,)
+    ... )
+    >>> door.step(State.KNOCK, Outcome(0.0, Reason.DONE, Readings())).name
+    'ENTER'
+    """
+
+    starts: tuple[S, ...]
+    """Where it may begin."""
+    rows: tuple[Row[S], ...]
+    ends: tuple[S, ...]
+    """Where it is over: these states have no action."""
+
+    def __post_init__(self) -> None:
+        if not self.starts:
+            raise ValueError("an automaton needs a state to start in")
+        states = set(type(self.starts[0]))
+        left = {row.here for row in self.rows}
+        if never := states - self._reachable():
+            raise ValueError(f"never entered: {_names(never)}")
+        if stuck := states - left - set(self.ends):
+            raise ValueError(f"never left: {_names(stuck)}")
+        if undone := left & set(self.ends):
+            raise ValueError(f"ends that are left: {_names(undone)}")
+
+    def step(self, state: S, outcome: Outcome) -> S:
+        """Return the state after `state`, whose action had this outcome.
+
+        Raises
+        ------
+        UnforeseenError
+            If no row holds: the table has no answer to what happened.
+        """
+        for row in self.rows:
+            if row.here is state and row.seen(outcome):
+                return row.there
+        raise UnforeseenError(state, outcome)
+
+    def table(self) -> Iterator[str]:
+        """Yield the rows as a Markdown table, line by line."""
+        yield "| in | when | go to |"
+        yield "|---|---|---|"
+        for row in self.rows:
+            yield f"| {row.here.name} | {_words(row)} | {row.there.name} |"
+
+    def diagram(self) -> Iterator[str]:
+        """Yield the automaton as a Mermaid state diagram, line by line."""
+        yield "stateDiagram-v2"
+        for start in self.starts:
+            yield f"    [*] --> {start.name}"
+        for row in self.rows:
+            yield f"    {row.here.name} --> {row.there.name}: {_words(row)}"
+        for end in self.ends:
+            yield f"    {end.name} --> [*]"
+
+    def _reachable(self) -> set[S]:
+        reached: set[S] = set()
+        todo = list(self.starts)
+        while todo:
+            state = todo.pop()
+            if state not in reached:
+                reached.add(state)
+                todo += [row.there for row in self.rows if row.here is state]
+        return reached
+
+
+class UnforeseenError(RuntimeError):
+    """An action ended in a way that its automaton has no arrow for."""
+
+    def __init__(self, state: Enum, outcome: Outcome) -> None:
+        super().__init__(
+            f"{type(state).__name__}.{state.name} has no arrow for "
+            f"{outcome.reason.value} after {outcome.distance:.2f} m"
+        )
+        self.state = state
+        self.outcome = outcome
+
+
+Actions: TypeAlias = Mapping[S, Primitive]
+"""The primitive that each state stands for; ends have none."""
+
+
+def perform(
+    automaton: Automaton[S], actions: Actions[S], start: S
+) -> Generator[Primitive, Outcome, list[tuple[S, Outcome]]]:
+    """Carry out an automaton's actions from `start` until it ends.
+
+    Parameters
+    ----------
+    automaton : Automaton
+        Says which state follows which.
+    actions : mapping of state to Primitive
+        One primitive for each state that is no end.
+    start : state
+        One of the automaton's starts.
+
+    Yields
+    ------
+    Primitive
+        The action of the present state.
+
+    Returns
+    -------
+    list of (state, Outcome)
+        What was done, in order; the last entry is the end reached, with the
+        last outcome once more.
+    """
+    done: list[tuple[S, Outcome]] = []
+    state = start
+    while state not in automaton.ends:
+        outcome = yield actions[state]
+        done.append((state, outcome))
+        state = automaton.step(state, outcome)
+    return [*done, (state, done[-1][1])]
+
+
+def _names(states: set[S]) -> str:
+    return ", ".join(sorted(state.name for state in states))
+
+
+def _words(row: Row[S]) -> str:
+    return row.seen.__name__.replace("_", " ")

@@ -1,0 +1,94 @@
+"""Bodies by name, for those who do not want to assemble one themselves."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from behaviours.parameters import Parameters
+from topomap.errors import InputError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from behaviours.port import Body
+    from worlds.pose import Pose
+    from worlds.profiles import Profile
+    from worlds.world import World
+
+__all__ = ["BODIES", "body_parameters", "make_body"]
+
+BODIES = ("ideal", "physical", "generic", "generic5", "epuck")
+"""The ideal body; the default physical robot; physical robots by profile."""
+
+
+def body_parameters(name: str) -> Parameters:
+    """Return the lengths that a body keeps unless told otherwise.
+
+    Raises
+    ------
+    InputError
+        If there is no such body.
+    """
+    profile = _profile(name)
+    return Parameters() if profile is None else profile.parameters
+
+
+def make_body(
+    name: str,
+    world: World,
+    start: Pose,
+    rng: np.random.Generator,
+    *,
+    sigma: float = 0.06,
+    parameters: Parameters | None = None,
+) -> Body:
+    """Set a body down in a world, alone.
+
+    Parameters
+    ----------
+    name : {"ideal", "physical", "generic", "generic5", "epuck"}
+        ``ideal`` is exact but for its lengths; ``physical`` is the ``generic``
+        robot; the others are profiles of physical robots.
+    world : World
+        Rectilinear for the ideal body.
+    start : Pose
+        In free space.
+    rng : numpy.random.Generator
+        Draws the body's errors.
+    sigma : float
+        Standard deviation of a leg's measured length, as a part of the length.
+    parameters : Parameters, optional
+        The lengths it keeps; `body_parameters` where None.
+
+    Returns
+    -------
+    Body
+        Ready to execute primitives.
+
+    Raises
+    ------
+    InputError
+        If there is no such body.
+    """
+    profile = _profile(name)
+    if profile is None:
+        from worlds.ideal import IdealBody
+
+        return IdealBody(world, start, parameters or Parameters(), rng, sigma)
+    from worlds.arena import Arena
+    from worlds.physical import PhysicalBody
+
+    return PhysicalBody(
+        Arena(world), start, profile, rng, sigma=sigma, parameters=parameters
+    )
+
+
+def _profile(name: str) -> Profile | None:
+    """Return a physical body's profile; None for the ideal one."""
+    if name not in BODIES:
+        raise InputError("", "body", name, f"one of {', '.join(BODIES)}")
+    if name == "ideal":
+        return None
+    from worlds.profiles import PROFILES
+
+    return PROFILES["generic" if name == "physical" else name]

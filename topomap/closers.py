@@ -1,0 +1,54 @@
+"""Loop closers by name, set up for a robot."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from evidence.dempster_shafer import DempsterShaferCloser, PublishedRule
+from evidence.position import least_distance
+from evidence.walls import RelativeError
+from topomap.errors import InputError
+
+if TYPE_CHECKING:
+    from behaviours.parameters import Parameters
+    from evidence.walls import LoopCloser
+
+__all__ = ["CLOSINGS", "make_closer"]
+
+CLOSINGS = ("dempster-shafer", "dempster-shafer-95")
+"""The published rule, with a gate that practically never misses (99.9 %), and
+with the literal one (95 %)."""
+
+
+def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
+    """Make the loop closer of a name.
+
+    Parameters
+    ----------
+    name : {"dempster-shafer", "dempster-shafer-95"}
+        See `CLOSINGS`.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+    parameters : Parameters
+        Of the robot: they decide how near two equal corners can be.
+
+    Returns
+    -------
+    LoopCloser
+        Not yet begun.
+
+    Raises
+    ------
+    InputError
+        If there is no closer of that name, or sigma is out of range.
+    """
+    if name not in CLOSINGS:
+        raise InputError("", "closing", name, f"one of {', '.join(CLOSINGS)}")
+    try:
+        error = RelativeError(sigma)
+    except ValueError:
+        expected = "a part of the length from 0 to 0.5"
+        raise InputError("", "sigma", sigma, expected) from None
+    nearest = least_distance(parameters.r0, parameters.r_min, parameters.r_max)
+    gate = 0.95 if name.endswith("95") else 0.999
+    return DempsterShaferCloser(error, PublishedRule(alpha=gate, r_star=nearest))

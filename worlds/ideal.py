@@ -1,0 +1,263 @@
+"""The ideal body: exact geometry and motion; only the odometry errs.
+
+It is the sources' own simulator, [K] 5.1.1, as a body of the robot port: a
+point that sees walls exactly, moves exactly, and reads its lengths off an
+odometer whose scale is off by a relative error, drawn anew after each turn. So
+the length of a straight leg has a standard deviation of sigma times its length,
+whatever primitives it was made of.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from behaviours.port import (
+    Align,
+    Approach,
+    Centre,
+    Direction,
+    Follow,
+    Guide,
+    Move,
+    Outcome,
+    Readings,
+    Reason,
+    Sensor,
+    Side,
+    Turn,
+)
+from worlds.sight import Sight
+from worlds.world import WorldError
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from behaviours.parameters import Parameters
+    from behaviours.port import Primitive
+    from worlds.pose import Pose
+    from worlds.world import World
+
+__all__ = ["IdealBody"]
+
+QUARTER = math.pi / 2
+SPEED = 0.25
+"""In metres a second; the clock runs by it."""
+TURN_TIME = 1.0
+"""Seconds for a quarter turn."""
+EPS = 1e-9
+"""Lengths that differ by less, in metres, are one length."""
+
+
+class IdealBody:
+    """A point robot in a rectilinear world, exact but for its odometer.
+
+    Parameters
+    ----------
+    world : World
+        Rectilinear.
+    start : Pose
+        In free space; the heading a multiple of a quarter turn.
+    parameters : Parameters
+        The lengths the robot keeps.
+    rng : numpy.random.Generator
+        Draws the odometer's errors: one for each turn, and one at the start.
+    sigma : float
+        Standard deviation of a leg's measured length, as a part of its length.
+
+    Raises
+    ------
+    WorldError
+        If the world is not rectilinear or the heading is oblique.
+
+    Examples
+    --------
+    From the middle of a room to the wall on the right, and along it:
+
+    >>> import numpy as np
+    >>> from behaviours import Parameters
+    >>> from behaviours.port import Follow, Side, Turn
+    >>> from worlds.pose import Pose
+    >>> from worlds.world import make_world
+    >>> room = make_world([(0, 0), (4, 0), (4, 3), (0, 3)])
+    >>> body = IdealBody(room, Pose(2, 0.3), Parameters(), np.random.default_rng(1))
+    >>> outcome = body.execute(Follow())
+    >>> outcome.reason.name, round(outcome.distance, 9)
+    ('BLOCKED', 1.7)
+    """
+
+    def __init__(
+        self,
+        world: World,
+        start: Pose,
+        parameters: Parameters,
+        rng: np.random.Generator,
+        sigma: float = 0.0,
+    ) -> None:
+        quarters = round(start.heading / QUARTER)
+        if abs(start.heading - quarters * QUARTER) > EPS:
+            raise WorldError(
+                "start",
+                "the ideal body needs a heading along a wall, a multiple of 90 "
+                f"degrees; got {math.degrees(start.heading):g}",
+            )
+        self.parameters = parameters
+        self.travelled = 0.0
+        self.clock = 0.0
+        self.collisions = 0
+        self._sight = Sight(world)
+        self._rng = rng
+        self._sigma = sigma
+        self._quarters = quarters % 4
+        self._u, self._v = self._sight.facing(start.x, start.y, self._quarters)
+        self._draw_scale()
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """True x and y, in metres, and heading, in radians, in the world's frame."""
+        x, y = self._sight.world_point(self._u, self._v, self._quarters)
+        return x, y, self._quarters * QUARTER
+
+    def execute(self, primitive: Primitive) -> Outcome:
+        """Carry out one primitive to its end; see `behaviours.port`."""
+        match primitive:
+            case Follow(Guide.WALL, side):
+                return self._follow_wall(side)
+            case Follow():
+                return self._follow_hall()
+            case Move():
+                return self._move(primitive)
+            case Approach():
+                return self._approach(primitive)
+            case Turn(side):
+                return self._turn(side)
+            case Align(side):
+                return self._align(side)
+            case Centre():
+                return self._centre()
+
+    def _draw_scale(self) -> None:
+        """Draw the odometer's scale for the next straight leg; never negative."""
+        self._scale = max(0.0, 1.0 + self._sigma * self._rng.standard_normal())
+
+    def _readings(self) -> Readings:
+        look = self._sight.looking[self._quarters]
+        return Readings(*look.all_round(self._u, self._v, self.parameters.r_min))
+
+    def _advance(
+        self, way: float, reason: Reason, clearance: float = math.inf
+    ) -> Outcome:
+        """Go `way` metres along the heading (negative: backward) and report."""
+        self._u += way
+        self.travelled += abs(way)
+        self.clock += abs(way) / SPEED
+        measured = abs(way) * self._scale
+        return Outcome(measured, reason, self._readings(), clearance=clearance)
+
+    def _sidle(self, shift: float, reason: Reason) -> Outcome:
+        """Go `shift` metres to the left, as a short manoeuvre would, and report."""
+        self._v += shift
+        self.travelled += abs(shift)
+        self.clock += abs(shift) / SPEED
+        return Outcome(0.0, reason, self._readings(), shift=shift)
+
+    def _turn(self, side: Side) -> Outcome:
+        x, y = self._sight.world_point(self._u, self._v, self._quarters)
+        self._quarters = (self._quarters + side.value) % 4
+        self._u, self._v = self._sight.facing(x, y, self._quarters)
+        self.clock += TURN_TIME
+        self._draw_scale()
+        return Outcome(0.0, Reason.DONE, self._readings())
+
+    def _room_ahead(self, keep: float) -> float:
+        """Return how far the robot can go until a wall ahead is `keep` away."""
+        look = self._sight.looking[self._quarters]
+        ahead = look.ahead(self._u, self._v, self.parameters.r_min)
+        return max(0.0, ahead - keep)
+
+    def _move(self, move: Move) -> Outcome:
+        if move.direction is Direction.BACKWARD:
+            return self._advance(-move.distance, Reason.DONE)
+        room = self._room_ahead(move.keep)
+        if room < move.distance - EPS:
+            return self._advance(room, Reason.BLOCKED)
+        return self._advance(move.distance, Reason.DONE)
+
+    def _approach(self, approach: Approach) -> Outcome:
+        sense = approach.direction.value
+        look = self._sight.looking[self._quarters]
+        seen = approach.limit
+        for sensor in approach.sensors:
+            if sensor is Sensor.FRONT:
+                if sense > 0:
+                    seen = min(seen, self._room_ahead(approach.within))
+            else:
+                side = Side.LEFT if sensor is Sensor.LEFT else Side.RIGHT
+                seen = min(
+                    seen,
+                    look.until_beside(self._u, self._v, side, approach.within, sense),
+                )
+        room = self._room_ahead(approach.keep) if sense > 0 else math.inf
+        if room < seen - EPS:
+            return self._advance(room, Reason.BLOCKED)
+        if math.isinf(seen):
+            raise WorldError("start", "no wall comes in sight: is the start inside?")
+        reason = Reason.SEEN if seen < approach.limit else Reason.DONE
+        return self._advance(sense * seen, reason)
+
+    def _align(self, side: Side) -> Outcome:
+        reach = self._sight.looking[self._quarters].beside(self._u, self._v, side)
+        if reach > self.parameters.r_max + EPS:
+            return self._sidle(0.0, Reason.RECEDED)
+        return self._sidle(side.value * (reach - self.parameters.r0), Reason.DONE)
+
+    def _follow_wall(self, side: Side) -> Outcome:
+        r0, r_max = self.parameters.r0, self.parameters.r_max
+        look = self._sight.looking[self._quarters]
+        reach = look.beside(self._u, self._v, side)
+        if reach > r_max + EPS:
+            return self._advance(0.0, Reason.RECEDED)
+        room = self._room_ahead(r0)
+        change, beyond = look.next_change(self._u, self._v, side, reach)
+        way = min(room, change)
+        hall = look.until_beside(self._u, self._v, side.opposite, 2 * r0 - reach, 1)
+        clearance = look.least_beside(self._u, self._v, side.opposite, min(way, hall))
+        if hall < way:
+            return self._advance(hall, Reason.NARROWED, clearance)
+        if room <= change + EPS:
+            return self._advance(room, Reason.BLOCKED, clearance)
+        reason = Reason.RECEDED if beyond > r_max + EPS else Reason.STEPPED
+        return self._advance(change, reason, clearance)
+
+    def _follow_hall(self) -> Outcome:
+        r0, r_max = self.parameters.r0, self.parameters.r_max
+        look = self._sight.looking[self._quarters]
+        reach = {side: look.beside(self._u, self._v, side) for side in Side}
+        if max(reach.values()) > r_max + EPS or sum(reach.values()) > 2 * r0 + EPS:
+            return self._advance(0.0, _hall_ends(reach, r0, r_max))
+        room = self._room_ahead(r0)
+        changes = {
+            side: look.next_change(self._u, self._v, side, reach[side]) for side in Side
+        }
+        change = min(way for way, _ in changes.values())
+        if room <= change + EPS:
+            return self._advance(room, Reason.BLOCKED)
+        for side, (way, beyond) in changes.items():
+            if way <= change + EPS:
+                reach[side] = beyond
+        return self._advance(change, _hall_ends(reach, r0, r_max))
+
+    def _centre(self) -> Outcome:
+        look = self._sight.looking[self._quarters]
+        left = look.beside(self._u, self._v, Side.LEFT)
+        right = look.beside(self._u, self._v, Side.RIGHT)
+        if left + right > 2 * self.parameters.r0 + EPS:
+            return self._sidle(0.0, Reason.WIDENED)
+        return self._sidle((left - right) / 2, Reason.DONE)
+
+
+def _hall_ends(reach: dict[Side, float], r0: float, r_max: float) -> Reason:
+    """Return how a hall changed whose walls are now so far to either side."""
+    if max(reach.values()) > r_max + EPS:
+        return Reason.RECEDED
+    return Reason.WIDENED if sum(reach.values()) > 2 * r0 + EPS else Reason.STEPPED
