@@ -1,4 +1,4 @@
-"""How likely is it that a merge is wrong?"""
+"""How likely a merge is wrong."""
 
 from __future__ import annotations
 

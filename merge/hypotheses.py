@@ -42,6 +42,9 @@ class Hypotheses:
     """Shape (H,): matched edges."""
     contradictions: Ints
     """Shape (H,): exits at which the maps disagree; 0 unless the rim is tolerated."""
+    pairings: int
+    """Compatible pairs of vertices, each rotation counted [K 4.2.1]; where a map is
+    not rectilinear, those of equal type and number of exits."""
     tried: int
     """Pairs, with rotation, that agreed with their neighbourhood and were grown."""
 
@@ -129,8 +132,16 @@ def grow_hypotheses(
         score=score * UNIT * share,
         edges=edges,
         contradictions=against,
+        pairings=_count_pairings(a, signatures.a, signatures.b, width),
         tried=int(tried),
     )
+
+
+def _count_pairings(a: Layout, views_a: Ints, views_b: Ints, width: int) -> int:
+    """Count the ways in which a vertex of one map looks like one of the other."""
+    some = a.first[:-1] < a.first[1:]
+    first = views_a[a.first[:-1][some]]
+    return int(np.bincount(views_b, minlength=width)[first].sum())
 
 
 def _entries(

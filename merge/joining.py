@@ -49,7 +49,8 @@ def join(a: Graph, b: Graph, pairs: Ints, transform: RigidTransform) -> Joined:
     pairs : ndarray of int, shape (K, 2)
         Vertices of `a` and `b` that are one place; each in one pair at most.
     transform : RigidTransform
-        Takes `b` into the frame of `a`; its angle tells which exits correspond.
+        Takes `b` into the frame of `a`; its angle tells which exits correspond. Their
+        directions then say the angle anew, exactly where both maps are rectilinear.
 
     Returns
     -------
@@ -72,18 +73,19 @@ def join(a: Graph, b: Graph, pairs: Ints, transform: RigidTransform) -> Joined:
     of_b = np.full(len(b), -1)
     of_b[pairs[:, 1]] = pairs[:, 0]
     new = np.flatnonzero(of_b < 0)
+    turn = _turn(a, b, pairs, transform.angle)
     of_b[new] = len(a) + np.arange(len(new))
     exits = [list(a.exits_of(v)) for v in range(len(a))]
     types, complete = a.types.tolist(), a.complete.tolist()
     where: list[list[int]] = [[] for _ in range(len(b))]
     for v in new.tolist():
-        turned = [angle + transform.angle for angle in b.exits_of(v)]
+        turned = [angle + turn for angle in b.exits_of(v)]
         where[v] = list(range(len(turned)))
         exits.append(turned)
         types.append(int(b.types[v]))
         complete.append(bool(b.complete[v]))
     for u, v in pairs.tolist():
-        where[v] = _lay_exits(exits[u], b.exits_of(v), transform.angle)
+        where[v] = _lay_exits(exits[u], b.exits_of(v), turn)
         types[u] = types[u] if types[u] != UNKNOWN else int(b.types[v])
         complete[u] = bool(complete[u] or b.complete[v])
     edges = a.edges.tolist()
@@ -113,6 +115,18 @@ def join(a: Graph, b: Graph, pairs: Ints, transform: RigidTransform) -> Joined:
         shifts.append(float(b.shifts[k]))
     graph = Graph.of(types, exits, edges, lengths, np.sqrt(variances), shifts, complete)
     return Joined(graph, of_a, of_b, np.arange(len(a.edges)), edge_of_b)
+
+
+def _turn(a: Graph, b: Graph, pairs: Ints, angle: float) -> float:
+    """Return the mean angle between the exits that nearly agree at `angle`."""
+    off = [
+        math.remainder(float(known - seen) - angle, math.tau)
+        for u, v in pairs.tolist()
+        for known in a.exits_of(u)
+        for seen in b.exits_of(v)
+    ]
+    close = [error for error in off if abs(error) < math.pi / 8]
+    return angle + (math.fsum(close) / len(close) if close else 0.0)
 
 
 def _lay_exits(known: list[float], seen: NDArray[np.float64], turn: float) -> list[int]:

@@ -96,9 +96,10 @@ def grow_all(
     """Grow every seed and return the hypotheses that survive.
 
     Entries are pairs of solid darts of one vertex, (first, second), sorted by key
-    and, in B, by the least length that the first allows, `low_b`. Returns arrays: the start of each hypothesis, its
-    pairs (dart of A, dart of B, standing for vertex pair and rotation), scores in
-    units of 2**-20, matched edges, contradictions; and the number of seeds tried.
+    and, in B, by the least length that the first allows, `low_b`. Returns arrays:
+    the start of each hypothesis, its pairs (dart of A, dart of B, standing for vertex
+    pair and rotation), scores in units of 2**-20, matched edges, contradictions; and
+    the number of seeds tried.
     """
     size_a, size_b = len(a.first) - 1, len(b.first) - 1
     darts_b = len(b.owner)

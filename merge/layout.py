@@ -93,7 +93,7 @@ class Signatures:
 
 
 def sign(a: Layout, b: Layout) -> Signatures:
-    """Number the views that the darts of two maps have of their vertices.
+    """Give darts of two maps one number if they see their vertices alike.
 
     A view is the vertex's type, its number of exits, and, where both maps are
     rectilinear, the quarter turns between its exits counted from the dart.

@@ -1,4 +1,4 @@
-"""In which ways could one map lie over the other?"""
+"""In which ways one map could lie over another."""
 
 from __future__ import annotations
 

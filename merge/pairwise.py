@@ -1,4 +1,4 @@
-"""Do two maps overlap, and how?"""
+"""Whether two maps overlap, and how."""
 
 from __future__ import annotations
 
@@ -14,15 +14,21 @@ from merge.hypotheses import Hypotheses, grow_hypotheses
 from merge.layout import lay_out
 from merge.options import Options
 from merge.overlays import find_overlays
+from merge.repeats import find_repeats
+from merge.verification import verify
 
 if TYPE_CHECKING:
     from merge.clustering import Cluster
     from merge.graph import Graph
+    from merge.layout import Layout
     from merge.rigid import RigidTransform
 
-__all__ = ["Match", "match"]
+__all__ = ["Match", "decide", "match"]
 
 Floats = NDArray[np.float64]
+
+CLASH = 4.0
+"""How much a place at which the maps contradict each other counts against them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,19 +97,21 @@ def match(a: Graph, b: Graph, options: Options | None = None) -> Match:
     options = options or Options()
     at_a = embed(a) if a.positions is None else a.positions
     at_b = embed(b) if b.positions is None else b.positions
-    hypotheses = grow_hypotheses(lay_out(a), lay_out(b), options)
-    return decide(a, b, at_a, at_b, hypotheses, options)
+    layouts = lay_out(a), lay_out(b)
+    hypotheses = grow_hypotheses(*layouts, options)
+    return decide(a, b, layouts, (at_a, at_b), hypotheses, options)
 
 
 def decide(
     a: Graph,
     b: Graph,
-    at_a: Floats,
-    at_b: Floats,
+    layouts: tuple[Layout, Layout],
+    places: tuple[Floats, Floats],
     hypotheses: Hypotheses,
     options: Options,
 ) -> Match:
     """Accept or refuse the best overlay that the hypotheses allow."""
+    at_a, at_b = places
     if len(hypotheses) == 0:
         reason = f"no {options.least} connected vertices of the maps correspond"
         return Match(False, reason, 1.0, None, (), hypotheses, at_a, at_b)
@@ -114,9 +122,26 @@ def decide(
     trials = float(len(a) * len(b))
     rivals = [other.score for other in others]
     wrong = false_merge_probability(best.score, rivals, trials)
-    accepted = wrong <= options.false_merge
-    reason = "" if accepted else _why(best, others, wrong, trials, options)
-    return Match(accepted, reason, wrong, best, others, hypotheses, at_a, at_b)
+    if wrong > options.false_merge:
+        reason = _why(best, others, wrong, trials, options)
+        return Match(False, reason, wrong, best, others, hypotheses, at_a, at_b)
+    verified = verify(*layouts, at_a, at_b, best, options)
+    repeated = find_repeats(a, layouts[0], best.pairs[:, 0], options)
+    repeated |= find_repeats(b, layouts[1], best.pairs[:, 1], options)
+    novel = best.score * (1 - repeated.mean())
+    clashes = len(verified.clashes)
+    wrong = false_merge_probability(
+        novel - CLASH * clashes, [s - best.score + novel for s in rivals], trials
+    )
+    best = verified.cluster
+    reason = ""
+    if wrong > options.false_merge:
+        reason = (
+            f"of {len(repeated)} matching vertices {int(repeated.sum())} lie in parts "
+            f"that a map has more than once, and {clashes} others clash: the overlay "
+            f"is wrong with probability {wrong:.2g}"
+        )
+    return Match(not reason, reason, wrong, best, others, hypotheses, at_a, at_b)
 
 
 def _why(

@@ -7,7 +7,7 @@ import pytest
 
 from merge.graph import Graph
 from merge.hypotheses import grow_hypotheses
-from merge.layout import lay_out
+from merge.layout import lay_out, sign
 from merge.makers import breadth_first, cut, make_maze, perturb, turn
 from merge.options import Options
 from merge.published import compatible_pairings, grow_published
@@ -170,9 +170,9 @@ def has_core(match, a, b):
             for i, j in enumerate(p.exits)
             if (p.a, i) in far_a and (p.b, j) in far_b
         )
-        if joint >= 2 and whole(a, p.a) and whole(b, p.b):
-            if len(a.exits_of(p.a)) == len(b.exits_of(p.b)):
-                return True
+        alike = len(a.exits_of(p.a)) == len(b.exits_of(p.b))
+        if joint >= 2 and alike and whole(a, p.a) and whole(b, p.b):
+            return True
     return False
 
 
@@ -186,6 +186,9 @@ def compare(a, b, options):
     found = {frozenset(map(tuple, fast.pairs(h).tolist())) for h in range(len(fast))}
     wanted = {frozenset((p.a, p.b) for p in match) for match in slow}
     assert found == wanted
+    if a.complete.all() and b.complete.all() and (a.types >= 0).all():
+        literal = grow_published(a, b, options).pairings
+        assert literal == fast.pairings or not sign(lay_out(a), lay_out(b)).rectilinear
     assert len(fast) == len(slow)
     return len(slow)
 
