@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from topomap.mapping import Build
     from worlds.world import World
 
-__all__ = ["draw_belief", "draw_build"]
+__all__ = ["draw_belief", "fill_figure"]
 
 
-def draw_build(built: Build, world: World, figure: Figure) -> None:
+def fill_figure(built: Build, world: World, figure: Figure) -> None:
     """Fill a figure: on the left the map over the walls, on the right the belief.
 
     Parameters
@@ -34,6 +34,7 @@ def draw_build(built: Build, world: World, figure: Figure) -> None:
     figure : matplotlib.figure.Figure
         Empty.
     """
+    figure.set_size_inches(13, 7)
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))
     draw_world(world, left)
     found = built.comparison

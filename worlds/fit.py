@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -17,17 +18,25 @@ if TYPE_CHECKING:
 
 __all__ = ["Passage", "check_fit", "narrowest"]
 
+ROUNDING = 1e-9
+"""A passage is too narrow even if it is this much, in metres, wider."""
+
 
 @dataclass(frozen=True, slots=True)
 class Passage:
-    """A place between two walls that face each other."""
+    """The rectangle between two walls, or two corners, that face each other."""
 
-    x: float
-    """Of the middle, in metres."""
-    y: float
-    """Of the middle, in metres."""
+    low: tuple[float, float]
+    """Its corner nearest to minus infinity, in metres."""
+    high: tuple[float, float]
+    """The opposite corner, in metres."""
     width: float
-    """In metres."""
+    """Of the passage, in metres."""
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """The middle of the rectangle, in metres."""
+        return (self.low[0] + self.high[0]) / 2, (self.low[1] + self.high[1]) / 2
 
 
 def check_fit(world: World, parameters: Parameters) -> None:
@@ -65,17 +74,21 @@ def check_fit(world: World, parameters: Parameters) -> None:
     worlds.world.WorldError: passage at (1, 0.25): 0.5 m wide; expected more than \
 0.6 m, twice r0
     """
-    passage = narrowest(world, parameters)
-    if passage.width <= 2 * parameters.r0:
+    if not world.is_rectilinear:
+        raise WorldError("world", "expected walls along x and y only")
+    recess, jut = parameters.least_recess, parameters.least_jut
+    passage = narrowest([straightened(ring, recess, jut) for ring in world.rings])
+    needed = 2 * parameters.r0
+    if passage.width <= needed + ROUNDING:
+        x, y = passage.middle
         raise WorldError(
-            f"passage at ({passage.x:.4g}, {passage.y:.4g})",
-            f"{passage.width:.4g} m wide; expected more than "
-            f"{2 * parameters.r0:.4g} m, twice r0",
+            f"passage at ({x:.4g}, {y:.4g})",
+            f"{passage.width:.4g} m wide; expected more than {needed:.4g} m, twice r0",
         )
 
 
-def narrowest(world: World, parameters: Parameters) -> Passage:
-    """Find the narrowest passage of a rectilinear world, jogs straightened.
+def narrowest(rings: Sequence[Ring]) -> Passage:
+    """Find the narrowest passage between rectilinear rings.
 
     Two walls face each other if they have free space between them and overlap;
     the width is their distance. Two outer corners face each other diagonally;
@@ -84,26 +97,15 @@ def narrowest(world: World, parameters: Parameters) -> Passage:
 
     Parameters
     ----------
-    world : World
-        Rectilinear.
-    parameters : Parameters
-        The robot's lengths; they say which jogs are ill-defined.
+    rings : sequence of Ring
+        An outer ring and its islands, with free space on the left.
 
     Returns
     -------
     Passage
         There always is one.
-
-    Raises
-    ------
-    WorldError
-        If the world is not rectilinear.
     """
-    if not world.is_rectilinear:
-        raise WorldError("world", "expected walls along x and y only")
-    corners, walls, before = _corners_and_walls(
-        [straightened(ring, parameters) for ring in world.rings]
-    )
+    corners, walls, before = _corners_and_walls(rings)
     found = [
         _between_walls(corners, walls, axis=0),
         _between_walls(corners, walls, axis=1),
@@ -113,7 +115,7 @@ def narrowest(world: World, parameters: Parameters) -> Passage:
 
 
 def _corners_and_walls(
-    rings: list[Ring],
+    rings: Sequence[Ring],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
     """Return all corners, the wall after each of them, and the one before it."""
     corners = [np.array(ring, dtype=float) for ring in rings]
@@ -140,10 +142,10 @@ def _between_walls(
     if not gaps.size or np.isinf(gaps.min()):
         return None
     i, j = np.unravel_index(np.argmin(gaps), gaps.shape)
-    middle = np.empty(2)
-    middle[axis] = (corners[behind[i], axis] + corners[ahead[j], axis]) / 2
-    middle[across] = (bottom[i, j] + top[i, j]) / 2
-    return Passage(float(middle[0]), float(middle[1]), float(gaps[i, j]))
+    first, second = np.empty(2), np.empty(2)
+    first[axis], second[axis] = corners[behind[i], axis], corners[ahead[j], axis]
+    first[across], second[across] = bottom[i, j], top[i, j]
+    return _passage(first, second, float(gaps[i, j]))
 
 
 def _between_corners(
@@ -165,6 +167,12 @@ def _between_corners(
         widths = np.where((gaps > 0).all(axis=2), gaps.max(axis=2), np.inf)
         if widths.size and np.isfinite(widths.min()):
             i, j = np.unravel_index(np.argmin(widths), widths.shape)
-            x, y = (here[i] + there[j]) / 2
-            found.append(Passage(float(x), float(y), float(widths[i, j])))
+            found.append(_passage(here[i], there[j], float(widths[i, j])))
     return found
+
+
+def _passage(
+    one: NDArray[np.float64], other: NDArray[np.float64], width: float
+) -> Passage:
+    low, high = np.minimum(one, other).tolist(), np.maximum(one, other).tolist()
+    return Passage((low[0], low[1]), (high[0], high[1]), width)

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from behaviours.parameters import Parameters
     from worlds.world import Ring
 
 __all__ = ["jogs", "straightened"]
@@ -16,20 +15,20 @@ ROUNDING = 1e-9
 """Heights, in metres, that differ by less are the same."""
 
 
-def jogs(ring: Ring, parameters: Parameters) -> list[int]:
+def jogs(ring: Ring, recess: float, jut: float) -> list[int]:
     """Return which walls of a rectilinear ring are ill-defined jogs.
 
     A jog joins two parallel walls that run on in the same direction. It is
-    ill-defined when the wall recedes by at most ``parameters.least_recess`` or
-    juts out by at most ``parameters.least_jut``, as met with the wall on the
-    right. Of two that share a corner only the shorter counts.
+    ill-defined when the wall recedes by at most `recess` or juts out by at most
+    `jut`, as met with the wall on the right. Of two that share a corner only the
+    shorter counts.
 
     Parameters
     ----------
     ring : Ring
         Rectilinear, with free space on the left.
-    parameters : Parameters
-        The robot's lengths.
+    recess, jut : float
+        In metres; `Parameters.least_recess` and `Parameters.least_jut` of a robot.
 
     Returns
     -------
@@ -38,9 +37,8 @@ def jogs(ring: Ring, parameters: Parameters) -> list[int]:
 
     Examples
     --------
-    >>> from behaviours.parameters import Parameters
     >>> room = (0, 0), (3, 0), (3, 0.1), (6, 0.1), (6, 4), (0, 4)
-    >>> jogs(room, Parameters(r0=0.3, r_min=0.15))
+    >>> jogs(room, recess=0.2, jut=0.15)
     [1]
     """
     corners = np.array(ring, dtype=float)
@@ -48,7 +46,7 @@ def jogs(ring: Ring, parameters: Parameters) -> list[int]:
     lengths = np.abs(walls).sum(axis=1)
     before = np.roll(walls, 1, axis=0)
     is_inner = before[:, 0] * walls[:, 1] > before[:, 1] * walls[:, 0]
-    limit = np.where(is_inner, parameters.least_jut, parameters.least_recess)
+    limit = np.where(is_inner, jut, recess)
     is_jog = (is_inner != np.roll(is_inner, -1)) & (lengths <= limit + ROUNDING)
     found: set[int] = set()
     for k in np.flatnonzero(is_jog)[np.argsort(lengths[is_jog], kind="stable")]:
@@ -57,7 +55,7 @@ def jogs(ring: Ring, parameters: Parameters) -> list[int]:
     return sorted(found)
 
 
-def straightened(ring: Ring, parameters: Parameters) -> Ring:
+def straightened(ring: Ring, recess: float, jut: float) -> Ring:
     """Return a rectilinear ring without its ill-defined jogs.
 
     Walls that are joined by such jogs become one, on the line of the longest.
@@ -66,8 +64,8 @@ def straightened(ring: Ring, parameters: Parameters) -> Ring:
     ----------
     ring : Ring
         Rectilinear, with free space on the left.
-    parameters : Parameters
-        The robot's lengths.
+    recess, jut : float
+        In metres; `Parameters.least_recess` and `Parameters.least_jut` of a robot.
 
     Returns
     -------
@@ -77,12 +75,11 @@ def straightened(ring: Ring, parameters: Parameters) -> Ring:
 
     Examples
     --------
-    >>> from behaviours.parameters import Parameters
     >>> room = (0, 0), (2, 0), (2, 0.1), (6, 0.1), (6, 4), (0, 4)
-    >>> straightened(room, Parameters(r0=0.3, r_min=0.15))
+    >>> straightened(room, recess=0.2, jut=0.15)
     ((6, 0.1), (6, 4), (0, 4), (0, 0.1))
     """
-    dropped = set(jogs(ring, parameters))
+    dropped = set(jogs(ring, recess, jut))
     size = len(ring)
     if not dropped or size - 2 * len(dropped) < 4:
         return ring

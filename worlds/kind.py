@@ -10,7 +10,7 @@ import numpy as np
 
 from worlds.world import World, WorldError
 
-__all__ = ["Kind", "Option"]
+__all__ = ["Kind", "Option", "checked"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,16 +78,27 @@ class Kind:
         WorldError
             If an option is unknown or its value cannot be used.
         """
-        known = {option.name: option for option in self.options}
-        for name, value in given.items():
-            if name not in known:
-                raise WorldError(
-                    f"{self.name}: {name}",
-                    f"unknown option; expected one of {', '.join(known)}"
-                    f"; got {value!r}",
-                )
-        values = {
-            name: option.check(self.name, given.get(name, option.default))
-            for name, option in known.items()
-        }
-        return self.build(rng, **values)
+        return self.build(rng, **checked(self.name, self.options, given))
+
+
+def checked(
+    owner: str, options: tuple[Option, ...], given: Mapping[str, object]
+) -> dict[str, int | float]:
+    """Return a value for every option: what is given, else the default.
+
+    Raises
+    ------
+    WorldError
+        If an option is unknown or its value cannot be used; names the owner.
+    """
+    known = {option.name: option for option in options}
+    for name, value in given.items():
+        if name not in known:
+            raise WorldError(
+                f"{owner}: {name}",
+                f"unknown option; expected one of {', '.join(known)}; got {value!r}",
+            )
+    return {
+        name: option.check(owner, given.get(name, option.default))
+        for name, option in known.items()
+    }

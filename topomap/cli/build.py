@@ -31,7 +31,7 @@ def build(
     ] = None,
     closing: Annotated[
         str, typer.Option(help="What decides that the loop is closed.")
-    ] = "likelihood",
+    ] = "dempster-shafer",
     max_walls: Annotated[
         int, typer.Option(help="Give the loop up as open after so many walls.")
     ] = 5000,
@@ -49,7 +49,8 @@ def build(
     from topomap.cli.console import say, show_json, watched
     from topomap.closers import make_closer
     from topomap.errors import JobError
-    from topomap.files import load_world, save_map
+    from topomap.files.map_files import save_map
+    from topomap.files.world_files import load_world
     from topomap.mapping import build_map
 
     place = load_world(world)
@@ -104,12 +105,10 @@ def summary(built: Build, elapsed: float) -> dict[str, Any]:
 
 def draw_build(built: Build, world: World, path: Path) -> None:
     """Draw the map over the world's walls, and what was believed on the way."""
-    from topomap.build_drawing import draw_build as draw
-    from topomap.drawing import new_figure, save_figure
+    from topomap.build_drawing import fill_figure
+    from topomap.drawing import save_figure
 
-    figure = new_figure(width=12, height=6)
-    draw(built, world, figure)
-    save_figure(figure, path)
+    save_figure(path, lambda figure: fill_figure(built, world, figure))
 
 
 def _pose(text: str) -> Pose:

@@ -26,17 +26,18 @@ def compare(
     from topomap.cli.console import say, show_json
     from topomap.comparison import compare_maps
     from topomap.errors import InputError
-    from topomap.files import load_map, load_world
+    from topomap.files.map_files import load_map
+    from topomap.files.world_files import load_world
     from topomap.truth import true_maps
 
     if len(maps) != (2 if world is None else 1):
         expected = "two maps" if world is None else "one map beside --world"
         raise InputError("compare", "", [str(path) for path in maps], expected)
     chart = load_map(maps[0])
-    if world is None:
-        references = (load_map(maps[1]),)
-    else:
-        references = true_maps(load_world(world), chart.parameters or Parameters())
+    robot = chart.parameters or Parameters()
+    references = (
+        (load_map(maps[1]),) if world is None else true_maps(load_world(world), robot)
+    )
     found = compare_maps(chart, *references)
     rmse = found.position_rmse
     if as_json:

@@ -12,7 +12,7 @@ import typer
 if TYPE_CHECKING:
     from evidence.walls import Decision, LoopCloser, Wall
 
-__all__ = ["progress", "say", "show_json", "watched"]
+__all__ = ["Progress", "progress", "say", "show_json", "watched"]
 
 
 def say(text: str) -> None:
@@ -26,19 +26,19 @@ def show_json(value: Mapping[str, object]) -> None:
 
 
 @contextmanager
-def progress(task: str) -> Iterator[_Progress]:
+def progress(task: str) -> Iterator[Progress]:
     """Show how far a long job is; silent where nobody looks."""
     from rich.console import Console
 
     console = Console(stderr=True)
     if not console.is_terminal:
-        yield _Progress(None)
+        yield Progress(None)
         return
     with console.status(task) as status:
-        yield _Progress(lambda text: status.update(f"{task}: {text}"))
+        yield Progress(lambda text: status.update(f"{task}: {text}"))
 
 
-class _Progress:
+class Progress:
     """Where a job tells how far it is."""
 
     def __init__(self, show: Callable[[str], None] | None) -> None:
@@ -60,7 +60,7 @@ def watched(closer: LoopCloser) -> Iterator[LoopCloser]:
 class _Watched:
     """A loop closer that tells how far the robot is."""
 
-    def __init__(self, closer: LoopCloser, shown: _Progress) -> None:
+    def __init__(self, closer: LoopCloser, shown: Progress) -> None:
         self._closer = closer
         self._shown = shown
         self._walls = 0

@@ -24,17 +24,17 @@ def demo(
     import worlds
     from topomap.cli.build import draw_build
     from topomap.cli.console import progress, say
-    from topomap.drawing import draw_world, new_figure, save_figure
-    from topomap.files import make_folder, save_map, save_world
+    from topomap.drawing import draw_world, save_picture
+    from topomap.files.atomic import make_folder
+    from topomap.files.map_files import save_map
+    from topomap.files.world_files import save_world
     from topomap.mapping import build_map
 
     make_folder(output)
     rng = np.random.default_rng(SEED)
     world = worlds.make("random", rng, corners=CORNERS, islands=1)
     save_world(world, output / "world.json")
-    figure = new_figure()
-    draw_world(world, figure.subplots())
-    save_figure(figure, output / "world.svg")
+    save_picture(output / "world.svg", lambda ax: draw_world(world, ax))
     with progress("a robot that sees 80 cm maps a world"):
         built = build_map(world, rng, body="physical")
     save_map(built.map, output / "map.json")

@@ -30,11 +30,12 @@ def reproduce(
     ] = None,
 ) -> None:
     """Run named experiments; a run that was stopped goes on where it was."""
-    from topomap.cli.console import progress, say
+    from topomap.cli.console import Progress, progress, say
     from topomap.errors import InputError
     from topomap.experiments.catalogue import catalogue, find
     from topomap.experiments.reporting import write_report
     from topomap.experiments.running import run_experiment
+    from topomap.files.atomic import make_folder
 
     if not names:
         for experiment in catalogue().values():
@@ -44,10 +45,14 @@ def reproduce(
         if value is not None and value < 1:
             raise InputError(option, "", value, "a number of at least 1")
     experiments = [find(name) for name in names]
-    output.mkdir(parents=True, exist_ok=True)
+    make_folder(output)
     for experiment in experiments:
         count = trials or experiment.trials
         with progress(experiment.name) as shown:
+
+            def tell(done: int, of: int, shown: Progress = shown) -> None:
+                shown.update(f"{done} of {of} batches")
+
             done = run_experiment(
                 experiment,
                 output / f"{experiment.name}.csv",
@@ -55,7 +60,7 @@ def reproduce(
                 seed=seed,
                 workers=workers or os.cpu_count() or 1,
                 scheduler=scheduler,
-                progress=lambda k, n, shown=shown: shown.update(f"{k} of {n} batches"),
+                progress=tell,
             )
         command = f"topomap reproduce {experiment.name} --trials {count} --seed {seed}"
         say(write_report(experiment, done, output, command))

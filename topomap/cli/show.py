@@ -17,10 +17,9 @@ def show(
     ],
 ) -> None:
     """Draw a map: vertices by type, ways, unexplored exits, confidence regions."""
-    from topomap.drawing import new_figure, save_figure
-    from topomap.files import load_map
+    from topomap.drawing import save_picture
+    from topomap.files.map_files import load_map
     from topomap.map_drawing import draw_map
 
-    figure = new_figure()
-    draw_map(load_map(chart), figure.subplots())
-    save_figure(figure, output)
+    found = load_map(chart)
+    save_picture(output, lambda ax: draw_map(found, ax))

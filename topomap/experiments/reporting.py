@@ -5,19 +5,24 @@ from __future__ import annotations
 import platform
 from collections import defaultdict
 from importlib.metadata import PackageNotFoundError, version
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
+from topomap.drawing import save_figure
 from topomap.experiments.wilson import wilson_interval
-from topomap.files import write_atomically
+from topomap.files.atomic import write_atomically
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
     from pathlib import Path
 
+    from matplotlib.figure import Figure
+
     from topomap.experiments.experiment import Experiment, Tallies, Task
 
 __all__ = ["plot", "sums", "table", "versions", "write_report"]
 
+Point: TypeAlias = "tuple[object, float, float, float]"
+"""Where along the axis, the share, and its interval's ends."""
 USED = ("topomap-robots", "numpy", "scipy", "shapely", "pymunk", "numba")
 
 
@@ -108,11 +113,9 @@ def _share(hits: float, trials: float) -> str:
 
 def plot(experiment: Experiment, cells: Mapping[int, Tallies], path: Path) -> None:
     """Draw the first share over the experiment's axis, a line for each other cell."""
-    from matplotlib.figure import Figure
-
     share = experiment.shares[0]
     x = experiment.x or next(iter(experiment.cells[0]))
-    lines: dict[str, list[tuple[object, float, float, float]]] = defaultdict(list)
+    lines: dict[str, list[Point]] = defaultdict(list)
     for cell, tallies in cells.items():
         conditions = experiment.cells[cell]
         rest = ", ".join(f"{k} {v}" for k, v in conditions.items() if k != x)
@@ -120,7 +123,13 @@ def plot(experiment: Experiment, cells: Mapping[int, Tallies], path: Path) -> No
         lines[rest].append(
             (conditions[x], hits / trials, *wilson_interval(hits, trials))
         )
-    figure = Figure(figsize=(7, 4.2), layout="constrained")
+    save_figure(path, lambda figure: _fill(figure, experiment, lines, x))
+
+
+def _fill(
+    figure: Figure, experiment: Experiment, lines: Mapping[str, list[Point]], x: str
+) -> None:
+    figure.set_size_inches(7, 4.2)
     ax = figure.subplots()
     for label, points in lines.items():
         at, middle, low, high = zip(*points, strict=True)
@@ -132,9 +141,8 @@ def plot(experiment: Experiment, cells: Mapping[int, Tallies], path: Path) -> No
             [str(v) for v in at], middle, bars, marker="o", capsize=3, label=label
         )
     ax.set_xlabel(x)
-    ax.set_ylabel(f"{share}, share of trials")
+    ax.set_ylabel(f"{experiment.shares[0]}, share of trials")
     ax.set_title(experiment.question, fontsize=9)
     ax.grid(alpha=0.3)
     if any(lines):
         ax.legend(fontsize=7)
-    figure.savefig(path)

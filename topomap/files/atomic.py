@@ -8,7 +8,7 @@ from pathlib import Path
 
 from topomap.errors import InputError
 
-__all__ = ["write_atomically"]
+__all__ = ["make_folder", "write_atomically"]
 
 
 def write_atomically(path: str | PathLike[str], content: str | bytes) -> None:
@@ -54,3 +54,18 @@ def _write(path: Path, data: bytes) -> None:
     except BaseException:
         beside.unlink(missing_ok=True)
         raise
+
+
+def make_folder(path: str | PathLike[str]) -> None:
+    """Make a folder and those above it; one that is there is fine.
+
+    Raises
+    ------
+    InputError
+        If it cannot be made.
+    """
+    try:
+        Path(path).mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = f"a folder that can be made: {error.strerror or error}"
+        raise InputError(fspath(path), "", None, reason) from None
