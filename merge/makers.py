@@ -49,8 +49,8 @@ def make_maze(
         raise ValueError(f"a maze needs 2 rows and columns; got {rows}, {columns}")
     x = np.concatenate([[0.0], np.cumsum(rng.uniform(*spacing, columns - 1))])
     y = np.concatenate([[0.0], np.cumsum(rng.uniform(*spacing, rows - 1))])
-    open_: NDArray[np.bool_] = _passages(rows, columns, rng, loops)
-    mask = open_.any(axis=1)
+    open_ = _passages(rows, columns, rng, loops)
+    mask = np.asarray(open_.any(axis=1))
     opposite = (open_[:, 0] == open_[:, 2]) & (open_[:, 1] == open_[:, 3])
     straight = opposite & (open_.sum(axis=1) == 2)
     if not keep_straight:

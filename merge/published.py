@@ -148,7 +148,8 @@ def grow_published(a: Graph, b: Graph, options: Options) -> Grown:
     start = compatible_pairings(a, b, options)
     beyond_a, beyond_b = _beyond(a), _beyond(b)
     marked: set[Pairing] = set()
-    good, bad = [], []
+    good: list[frozenset[Pairing]] = []
+    bad: list[frozenset[Pairing]] = []
     for pairing in start:
         if pairing in marked:
             continue

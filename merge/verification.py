@@ -103,12 +103,14 @@ def _look(
     loose = np.flatnonzero(free)
     if len(loose) == 0 or len(at_b) < 2:
         return none, none
-    away, k = cKDTree(at_a[pairs[:, 0]]).query(at_a[loose])
+    found = cKDTree(at_a[pairs[:, 0]]).query(at_a[loose])
+    away, k = np.asarray(found[0]), np.asarray(found[1])
     c, s = math.cos(turn), math.sin(turn)
     step = (at_a[loose] - at_a[pairs[k, 0]]) @ np.array([[c, -s], [s, c]])
     place = at_b[pairs[k, 1]] + step
     spread = DEVIATIONS * np.sqrt(2 * away * (_drift(a) + _drift(b)))
-    distance, two = cKDTree(at_b).query(place, k=2)
+    found = cKDTree(at_b).query(place, k=2)
+    distance, two = np.asarray(found[0]), np.asarray(found[1])
     # Only where no second vertex can be meant.
     sure = (distance[:, 0] <= spread) & (distance[:, 1] > 3 * spread)
     taken = np.zeros(len(at_b), bool)
