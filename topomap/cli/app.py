@@ -9,6 +9,7 @@ import typer
 from topomap.cli.build import build
 from topomap.cli.compare import compare
 from topomap.cli.demo import demo
+from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
 from topomap.cli.show import show
 from topomap.cli.world import app as world
@@ -25,6 +26,7 @@ app.command()(demo)
 app.add_typer(world, name="world")
 app.command()(build)
 app.command()(compare)
+app.command()(merge)
 app.command()(show)
 app.command()(reproduce)
 
