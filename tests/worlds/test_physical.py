@@ -242,9 +242,9 @@ def test_behind_an_inner_corner_a_short_wall_ends_at_a_negative_distance(name, j
     assert body.collisions == 0
 
 
-@pytest.mark.parametrize("sigma", [-0.01, 0.4, math.nan])
+@pytest.mark.parametrize("sigma", [-0.01, 0.51, math.nan])
 def test_sigma_out_of_range_is_refused(sigma):
-    with pytest.raises(ValueError, match=r"sigma must be at least 0 and below 0\.4"):
+    with pytest.raises(ValueError, match=r"sigma must be from 0 to 0\.5"):
         body_in(sigma=sigma)
 
 
