@@ -5,9 +5,7 @@ table C.6 and section 3.2.1 of [K]_:
 
 | in | when | go to |
 |---|---|---|
-| TL | done | AB_RIGHT |
-| AB_RIGHT | seen | FM |
-| AB_RIGHT | done | FM |
+| TL | done | FM |
 | TR | done | MF_BESIDE |
 | MF_BESIDE | done | FM |
 | MF_BESIDE | blocked | INT |
@@ -32,10 +30,9 @@ round the edge), and in FM beside a wall. A step inside the safe zone is an
 ill-defined corner, ILL: the robot regains r0 and goes on. HALL is the end where
 open space ends.
 
-Differs from the source: a wall that juts out by less than r0 ends behind the
-robot when it has turned at the inner corner before it. AB_RIGHT goes back to
-where that wall is beside the robot, so that the outer corner at its end is
-placed r0 past its edge as any other.
+A wall that juts out by less than r0 ends behind the robot when it has turned at
+the inner corner before it: FM then counts back to the edge, and the outer corner
+is placed r0 past it as any other.
 
 References
 ----------
@@ -51,18 +48,8 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
-from behaviours.conditions import blocked, done, narrowed, receded, seen, stepped
-from behaviours.port import (
-    Align,
-    Approach,
-    Behaviour,
-    Direction,
-    Follow,
-    Move,
-    Sensor,
-    Side,
-    Turn,
-)
+from behaviours.conditions import blocked, done, narrowed, receded, stepped
+from behaviours.port import Align, Behaviour, Follow, Move, Side, Turn
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -76,8 +63,6 @@ class State(Enum):
     """What the robot is doing; named after the primitives of table C.3."""
 
     TL = auto()
-    AB_RIGHT = auto()
-    """Go back until the wall is beside: it may be shorter than r0."""
     TR = auto()
     MF_BESIDE = auto()
     """Round an outer corner, r0 forward: beside the next wall."""
@@ -93,9 +78,7 @@ class State(Enum):
 # fmt: off
 FOLLOW_WALL = Automaton((State.TL, State.TR, State.FM), (
     #   in               when       go to
-    Row(State.TL,        done,      State.AB_RIGHT),
-    Row(State.AB_RIGHT,  seen,      State.FM),
-    Row(State.AB_RIGHT,  done,      State.FM),
+    Row(State.TL,        done,      State.FM),
     Row(State.TR,        done,      State.MF_BESIDE),
     Row(State.MF_BESIDE, done,      State.FM),
     Row(State.MF_BESIDE, blocked,   State.INT),
@@ -134,16 +117,9 @@ class Leg:
 
 def actions(parameters: Parameters) -> dict[State, Primitive]:
     """Return what the robot does in each state."""
-    r0, r_min = parameters.r0, parameters.r_min
-    past = Move(r0, keep=r0)
+    past = Move(parameters.r0, keep=parameters.r0)
     return {
         State.TL: Turn(Side.LEFT),
-        State.AB_RIGHT: Approach(
-            (Sensor.RIGHT,),
-            within=parameters.r_max,
-            direction=Direction.BACKWARD,
-            limit=min(r_min, r0 - r_min),
-        ),
         State.TR: Turn(Side.RIGHT),
         State.MF_BESIDE: past,
         State.FM: Follow(),
@@ -176,10 +152,7 @@ def follow_wall(parameters: Parameters, corner: VertexType | None) -> Behaviour[
     *done_, (end, _) = path
     return Leg(
         CORNER[end],
-        length=sum(
-            -outcome.distance if state is State.AB_RIGHT else outcome.distance
-            for state, outcome in done_
-        ),
+        length=sum(outcome.distance for _, outcome in done_),
         shift=sum(outcome.shift for _, outcome in done_),
         clearance=min((outcome.clearance for _, outcome in done_), default=math.inf),
     )
