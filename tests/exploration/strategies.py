@@ -23,12 +23,14 @@ def scenes(draw, max_side=12, max_robots=5, max_frontiers=6):
 
 def tables(max_robots=6, max_frontiers=6, values=None):
     """Return a strategy of tables of costs, with ties and places out of reach."""
-    costs = values or st.one_of(
-        st.integers(0, 6).map(float), st.just(float("inf")), st.floats(0, 1e6)
+    costs = (
+        values
+        if values is not None
+        else st.one_of(
+            st.integers(0, 6).map(float), st.just(float("inf")), st.floats(0, 1e6)
+        )
     )
-    return st.tuples(
-        st.integers(1, max_robots), st.integers(1, max_frontiers)
-    ).flatmap(
+    return st.tuples(st.integers(1, max_robots), st.integers(1, max_frontiers)).flatmap(
         lambda shape: st.lists(
             st.lists(costs, min_size=shape[1], max_size=shape[1]),
             min_size=shape[0],

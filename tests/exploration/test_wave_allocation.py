@@ -12,7 +12,9 @@ from topomap.exploration.wave_allocation import ORDERS, allocate_by_waves
 
 
 @settings(deadline=None)  # the first call compiles
-@given(scenes(), st.sampled_from(ORDERS), st.booleans(), st.sampled_from([EXACT, INTEGER]))
+@given(
+    scenes(), st.sampled_from(ORDERS), st.booleans(), st.sampled_from([EXACT, INTEGER])
+)
 def test_waves_answer_as_the_matrix_does(scene, allocator, localised, steps):
     free, robots, frontiers = scene
     costs = cost_matrix(free, robots, frontiers, steps=steps)
@@ -61,7 +63,10 @@ def test_a_robot_inside_an_obstacle_gets_no_frontier():
         ({"allocator": "hungarian"}, "allocator: expected one of mindist, greedy"),
         ({"robots": []}, "robots: expected at least one robot"),
         ({"asking": 2}, "asking: expected a robot from 0 to 0; got 2"),
-        ({"robots": [(0, 5)]}, r"robots\[0\]: expected a cell inside 1 x 3; got \[0, 5\]"),
+        (
+            {"robots": [(0, 5)]},
+            r"robots\[0\]: expected a cell inside 1 x 3; got \[0, 5\]",
+        ),
         ({"frontiers": [[(-1, 0)]]}, r"frontiers\[0\]\[0\]: expected a cell inside"),
         ({"free": np.ones(3)}, "free: expected a grid"),
     ],

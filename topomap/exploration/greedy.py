@@ -103,7 +103,7 @@ def utility(
     return chosen
 
 
-register("utility")(utility)
+register("utility", needs=("between", "visible"))(utility)
 
 
 def _fall(m: int, details: Details, far: float | None) -> NDArray[np.float64]:

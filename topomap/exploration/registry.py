@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from topomap.exploration.costs import Costs
     from topomap.exploration.details import Details
 
-__all__ = ["Allocator", "allocators", "find_allocator", "register"]
+__all__ = ["Allocator", "allocators", "find_allocator", "needs_of", "register"]
 
 
 class Allocator(Protocol):
@@ -34,15 +34,19 @@ class Allocator(Protocol):
 A = TypeVar("A", bound=Allocator)
 
 _REGISTERED: dict[str, Allocator] = {}
+_NEEDS: dict[int, frozenset[str]] = {}
 
 
-def register(name: str) -> Callable[[A], A]:
+def register(name: str, needs: Iterable[str] = ()) -> Callable[[A], A]:
     """Add an allocator under a name, by which `allocate` and programs find it.
 
     Parameters
     ----------
     name : str
         Lower case; not yet taken.
+    needs : iterable of str
+        Parts of `Details` that are costly to find out and that it uses:
+        ``between`` and ``visible``. A simulator leaves out the others.
 
     Returns
     -------
@@ -71,6 +75,7 @@ def register(name: str) -> Callable[[A], A]:
 
     def add(allocator: A) -> A:
         _REGISTERED[name] = allocator
+        _NEEDS[id(allocator)] = frozenset(needs)
         return allocator
 
     return add
@@ -88,3 +93,8 @@ def find_allocator(name: str) -> Allocator:
     except KeyError:
         names = ", ".join(sorted(_REGISTERED))
         raise InputError("allocator", "", name, f"one of {names}") from None
+
+
+def needs_of(allocator: Allocator) -> frozenset[str]:
+    """Return the costly parts of `Details` an allocator uses; all if not registered."""
+    return _NEEDS.get(id(allocator), frozenset({"between", "visible"}))
