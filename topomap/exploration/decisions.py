@@ -129,29 +129,28 @@ def _by_table(
     previous: Ints | None,
 ) -> Decision:
     """Decide with the table of costs."""
-    from topomap.exploration.exploring_kernel import table
+    from topomap.exploration.exploring_kernel import table, way
     from topomap.exploration.wave_kernel import FAR
 
-    ways, onwards = table(open_, width, frontiers.cells, frontiers.first, robots, STEPS)
+    ways = table(open_, width, frontiers.cells, frontiers.first, robots, STEPS)
     costs = np.where(ways < FAR, ways / EXACT.straight, np.inf)
-    choose = settings.choose
-    chosen = choose(
-        costs, _details(open_, width, robots, frontiers, settings, previous)
+    chosen = settings.choose(
+        costs, _details(open_, width, frontiers, settings, previous)
     )
     if settings.exchange:
         chosen = swap(costs, chosen)
-    rows = np.arange(len(robots))
-    return Decision(
-        chosen,
-        np.where(chosen >= 0, costs[rows, chosen], np.inf),
-        np.where(chosen >= 0, onwards[rows, chosen], robots),
-    )
+    onwards = robots.copy()
+    for i, j in enumerate(chosen):
+        if j >= 0:
+            cells = way(open_, width, frontiers.of(j), robots[i], STEPS)
+            onwards[i] = cells[0] if len(cells) else robots[i]
+    reached = np.where(chosen >= 0, costs[np.arange(len(robots)), chosen], np.inf)
+    return Decision(chosen, reached, onwards)
 
 
 def _details(
     open_: Bytes,
     width: int,
-    robots: Ints,
     frontiers: Frontiers,
     settings: Settings,
     previous: Ints | None,
@@ -163,7 +162,7 @@ def _details(
     needs = needs_of(settings.choose)
     between = visible = aims = None
     if "between" in needs:
-        apart, _ = table(
+        apart = table(
             open_, width, frontiers.cells, frontiers.first, frontiers.central, STEPS
         )
         between = np.where(apart < FAR, apart / EXACT.straight, np.inf)

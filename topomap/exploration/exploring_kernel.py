@@ -129,32 +129,46 @@ def table(
     first: Ints,
     robots: Ints,
     steps: tuple[int, int],
-) -> tuple[Ints, Ints]:
-    """Return the way from each robot to each frontier (FAR: none), and its next cell."""
+) -> Ints:
+    """Return the length of the way from each robot to each frontier (FAR: none).
+
+    A wave per robot or per frontier, whichever are fewer: ways are as long in
+    both directions.
+    """
     n, m = len(robots), len(first) - 1
     ways = np.full((n, m), FAR)
-    onwards = np.empty((n, m), dtype=np.int64)
+    fewer = n < m
     marks = np.zeros(open_.size, dtype=np.uint8)
     awaited = 0
-    for at in robots:
+    for at in sources if fewer else robots:
         awaited += marks[at] == 0
         marks[at] = 1
     potential = np.empty(open_.size, dtype=np.int64)
-    for j in range(m):
+    for k in range(min(n, m)):
         for at in range(open_.size):
             potential[at] = FAR if open_[at] > 0 else -1
-        fill(potential, width, sources[first[j] : first[j + 1]], steps, marks, awaited)
-        for i in range(n):
-            ways[i, j] = potential[robots[i]]
-            onwards[i, j] = _next(potential, robots[i], width, steps)
-    return ways, onwards
+        start = robots[k : k + 1] if fewer else sources[first[k] : first[k + 1]]
+        fill(potential, width, start, steps, marks, awaited)
+        if fewer:
+            for j in range(m):
+                for at in sources[first[j] : first[j + 1]]:
+                    if potential[at] >= 0:
+                        ways[k, j] = min(ways[k, j], potential[at])
+        else:
+            for i in range(n):
+                if potential[robots[i]] >= 0:
+                    ways[i, k] = potential[robots[i]]
+    return ways
 
 
 @compiled
 def way(
     open_: Bytes, width: int, sources: Ints, robot: int, steps: tuple[int, int]
 ) -> Ints:
-    """Return the cells of a shortest way to any source, the robot's own left out."""
+    """Return the cells of a shortest way to any source, the robot's own left out.
+
+    Empty where there is none.
+    """
     potential = np.where(open_ > 0, FAR, np.int64(-1))
     marks = np.zeros(open_.size, dtype=np.uint8)
     marks[robot] = 1
