@@ -161,14 +161,14 @@ def _ring(corners: Iterable[Sequence[float]], field: str) -> Ring:
     polygon = shapely.Polygon(ring)
     if not polygon.is_valid:
         raise WorldError(field, shapely.is_valid_reason(polygon))
-    corners = tuple(
+    turned: Ring = tuple(
         ring[k]
         for k in range(len(ring))
         if abs(_bend(ring[k - 1], ring[k], ring[(k + 1) % len(ring)])) > PARALLEL
     )
-    if len(corners) < 3:
+    if len(turned) < 3:
         raise WorldError(field, "has no area")
-    return corners
+    return turned
 
 
 def _bend(
