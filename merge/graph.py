@@ -172,6 +172,9 @@ _KINDS = {
 }
 
 
+_NOUN = {"lengths": "length", "variances": "variance"}
+
+
 def _check_shapes(graph: Graph) -> None:
     size, count = len(graph.types), len(graph.lengths)
     if size == 0:
@@ -209,7 +212,7 @@ def _check_numbers(graph: Graph) -> None:
         value = getattr(graph, name)
         if (value <= 0).any():
             k = int(np.argmax(value <= 0))
-            raise GraphError(f"{name}[{k}]", value[k], f"a {name[:6]} above 0")
+            raise GraphError(f"{name}[{k}]", value[k], f"a {_NOUN[name]} above 0")
 
 
 def _check_edges(graph: Graph) -> None:
