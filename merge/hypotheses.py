@@ -134,13 +134,12 @@ def grow_hypotheses(
     # The same hypotheses come in the same order, wherever growth began.
     sizes = np.diff(first)
     group = np.repeat(np.arange(len(sizes)), sizes)
-    rows = np.lexsort((darts_a, group))
-    head = rows[first[:-1]]
+    head = np.lexsort((darts_a, group))[first[:-1]]
     rank = np.lexsort((darts_b[head], darts_a[head]))
     place = np.empty(len(rank), np.int64)
     place[rank] = np.arange(len(rank))
-    rows = np.lexsort((darts_a, place[group]))
-    darts_a, darts_b = darts_a[rows], darts_b[rows]
+    order = np.lexsort((darts_a, place[group]))
+    darts_a, darts_b = darts_a[order], darts_b[order]
     score, edges, against = score[rank], edges[rank], against[rank]
     first = np.concatenate([[0], np.cumsum(sizes[rank])])
     # Loops repeat what their other edges say: count each new vertex once.

@@ -116,8 +116,13 @@ EXPERIMENTS = (
         "merging-reliability",
         "How often is the best overlay wrong that is said to be so likely wrong?",
         tuple(
-            {"reliability": 1, "world": world, "vertices": 60, "sigma": 0.1}
-            | {"overlap": overlap}
+            {
+                "reliability": 1,
+                "world": world,
+                "vertices": 60,
+                "sigma": 0.1,
+                "overlap": overlap,
+            }
             for world, overlap in product(SPACING, (0.0, 0.1, 0.15))
         ),
         merge_mazes,
