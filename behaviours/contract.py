@@ -65,7 +65,7 @@ class ContractError(AssertionError):
 def check_body(
     make_body: MakeBody,
     parameters: Parameters | None = None,
-    tolerance: float = 1e-6,
+    tolerance: float = 1e-5,
 ) -> None:
     """Put a body into all standard situations and check what it answers.
 

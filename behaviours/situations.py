@@ -35,6 +35,7 @@ def situations(parameters: Parameters) -> tuple[Situation, ...]:
     Returns
     -------
     tuple of Situation
+        One for each thing that a primitive may meet; names differ.
 
     Examples
     --------

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import ast
 import re
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
+import typer
 from automata import automata, draw_automaton
 from figures import FIGURES, render
 from latex2mathml.converter import convert
@@ -22,6 +22,7 @@ from markdown.preprocessors import Preprocessor
 from mkdocs.structure.files import File
 
 import worlds
+from topomap.cli.app import app
 from worlds.profiles import PROFILES
 
 if TYPE_CHECKING:
@@ -88,12 +89,6 @@ GENERATORS: tuple[Callable[[], Iterator[tuple[str, str | bytes]]], ...] = (
 
 def usage() -> str:
     """Return what each command of the program takes, as the program has it."""
-    if not (ROOT / "topomap" / "cli" / "__init__.py").exists():
-        return ""  # until the program lands; then these two lines go
-    import typer
-
-    cli = import_module("topomap.cli")
-    app = next(value for value in vars(cli).values() if isinstance(value, typer.Typer))
     return "\n".join(_command_lines(typer.main.get_command(app), "topomap"))
 
 

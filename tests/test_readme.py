@@ -9,9 +9,8 @@ from pathlib import Path
 import msgspec
 import pytest
 
-import topomap
-from topomap import map_records
 from topomap.embedding import embed
+from topomap.files import map_records
 from worlds.world import make_world
 
 ROOT = Path(__file__).parents[1]
@@ -27,20 +26,7 @@ def blocks(page, language):
     return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
 
 
-# Inert once `topomap.build_map` is there; then it goes.
-UNTIL_IT_LANDS = pytest.mark.xfail(
-    not hasattr(topomap, "build_map"), reason="README uses topomap.build_map"
-)
-
-
-@pytest.mark.parametrize(
-    "page",
-    [
-        pytest.param(page, marks=UNTIL_IT_LANDS if page == "README.md" else ())
-        for page in PAGES
-        if blocks(page, "python")
-    ],
-)
+@pytest.mark.parametrize("page", [p for p in PAGES if blocks(p, "python")])
 def test_python_on_a_page_does_what_it_shows(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     names, runner = (

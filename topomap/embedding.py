@@ -235,10 +235,9 @@ def _differences(ends: NDArray[np.int64], size: int) -> csr_array:
     """Return the matrix (edges, size) of target less source."""
     from scipy.sparse import coo_array
 
-    rows, sign = np.indices(ends.shape)
-    is_free = ends >= 0
-    values = np.where(sign, 1.0, -1.0)[is_free]
-    place = (rows[is_free], ends[is_free])
+    edge, end = np.nonzero(ends >= 0)
+    values = np.where(end, 1.0, -1.0)
+    place = (edge, ends[edge, end])
     return coo_array((values, place), shape=(len(ends), size)).tocsr()
 
 

@@ -153,6 +153,7 @@ class Arena:
         Returns
         -------
         Disc
+            The robot in the world, standing.
 
         Raises
         ------

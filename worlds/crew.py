@@ -49,5 +49,6 @@ def run_together(
         for k, (_, body) in enumerate(crew):
             while k not in results and (outcome := body.poll()) is not None:
                 hand_over(k, outcome)
-        arena.step()
+        if len(results) < len(crew):
+            arena.step()
     return [results[k] for k in range(len(crew))]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 if TYPE_CHECKING:
     from worlds.world import Ring
 
-__all__ = ["jogs", "straightened"]
+__all__ = ["jogs", "straightened", "without"]
 
 ROUNDING = 1e-9
 """Heights, in metres, that differ by less are the same."""
@@ -79,7 +80,25 @@ def straightened(ring: Ring, recess: float, jut: float) -> Ring:
     >>> straightened(room, recess=0.2, jut=0.15)
     ((6, 0.1), (6, 4), (0, 4), (0, 0.1))
     """
-    dropped = set(jogs(ring, recess, jut))
+    return without(ring, set(jogs(ring, recess, jut)))
+
+
+def without(ring: Ring, dropped: Collection[int]) -> Ring:
+    """Return a rectilinear ring without some of its jogs.
+
+    Parameters
+    ----------
+    ring : Ring
+        Rectilinear.
+    dropped : collection of int
+        Jogs of the ring, no two of which share a corner, as `jogs` finds them.
+
+    Returns
+    -------
+    Ring
+        With two corners less for each jog; the ring itself if fewer than four
+        walls would be left.
+    """
     size = len(ring)
     if not dropped or size - 2 * len(dropped) < 4:
         return ring

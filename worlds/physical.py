@@ -66,8 +66,8 @@ class PhysicalBody:
         Draws all its errors.
     sigma : float
         Standard deviation of a straight leg's measured length, as a part of its
-        length, at least 0 and below 0.4: slip of the wheels and their wrong
-        radius. It is drawn anew at each turn.
+        length, from 0 to 0.5: slip of the wheels and their wrong radius. The
+        error is drawn anew at each turn.
     parameters : Parameters, optional
         The lengths it keeps, if not its profile's own.
 
@@ -119,8 +119,8 @@ class PhysicalBody:
         sigma: float = 0.06,
         parameters: Parameters | None = None,
     ) -> None:
-        if not 0.0 <= sigma < 0.4:
-            raise ValueError(f"sigma must be at least 0 and below 0.4; got {sigma}")
+        if not 0.0 <= sigma <= 0.5:
+            raise ValueError(f"sigma must be from 0 to 0.5; got {sigma}")
         if parameters is not None:
             profile = replace(profile, parameters=parameters)
         self._arena = arena

@@ -4,7 +4,7 @@ Sources of the default figures. Sharp GP2Y0A21YK0F, data sheet E4-A00201EN:
 10 to 80 cm, a new value every 38.3 ms; the output falls about as
 27.9 V / (distance in cm)**1.15, so that 10 mV of noise on it are
 0.05 r**2 metres at a range of r metres, half a centimetre at 30 cm. Its spot
-is some 6 degrees wide. e-puck: Mondada et al., "The e-puck, a robot designed
+is taken to be 6 degrees wide. e-puck: Mondada et al., "The e-puck, a robot designed
 for education in engineering", 2009: 7 cm across, wheels 5.3 cm apart, eight
 infrared proximity sensors. Calibrated wheel odometry of such robots errs by
 a few per cent of the way and about 1 degree a metre (Borenstein and Feng,
@@ -35,10 +35,11 @@ GENERIC = Profile(
 """A disc of 14 cm with three Sharp GP2Y0A21.
 
 One looks ahead from the centre; two look sideways across a bracket 10 cm ahead
-of it, so that each sees what juts into the way before the body touches it. It
-sees a wall ahead in the middle of its way from 80 cm on, and one that reaches
-less than 12 cm over the way's edge only when the bracket is beside it: it then
-backs off to r0. It cannot see what is thinner than 2 cm, nor behind itself.
+of it, so that each sees what juts into the way before the body touches it. A
+wall ahead that covers the middle of the way is seen from 80 cm on; one that only
+reaches over the rim of the way, r_min to either side, is seen when the bracket
+is beside it, and the robot then backs off to r0. Nothing behind is seen, and a
+post thinner than 3 cm may be passed unseen between two readings.
 """
 
 GENERIC5 = replace(
@@ -52,7 +53,10 @@ GENERIC5 = replace(
 )
 """The same with two rangers more, aimed at the edges of its way r0 ahead.
 
-It sees at r0 whatever juts 1 cm or more into its way, r_min to either side.
+A wall that reaches 1 cm or more into the way is seen at r0. The side rangers sit
+abeam of the centre, so that a wall's end is seen where it is, and the end of a
+wall shorter than r0 can be looked for behind. Posts between the beams are seen
+late or not at all.
 """
 
 
@@ -89,8 +93,8 @@ EPUCK = Profile(
 )
 """An e-puck: a disc of 7 cm with a ring of eight proximity sensors.
 
-Their range of 10 cm from the rim is that of calibrated long-range use against
-white walls.
+The two in front are turned straight ahead. Their range of 10 cm from the rim is
+that of calibrated use against white walls.
 """
 
 PROFILES = {profile.name: profile for profile in (GENERIC, GENERIC5, EPUCK)}

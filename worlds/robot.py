@@ -21,6 +21,8 @@ __all__ = ["Robot"]
 
 CLIP = 2.5
 """Errors of a leg or a turn are drawn up to so many standard deviations."""
+LEAST = 0.2
+"""A leg is never measured as less than this part of its length."""
 BATCH = 256
 """Errors are drawn for so many time steps at once."""
 MEMORY = 64
@@ -91,7 +93,7 @@ class Robot:
 
     def begin_leg(self) -> None:
         """Draw the errors of a straight leg anew: its scale and its bend."""
-        self._scale = 1.0 / (1.0 + self._clipped(self._sigma))
+        self._scale = 1.0 / max(1.0 + self._clipped(self._sigma), LEAST)
         self._drift = self._clipped(self.profile.drift)
 
     def begin_spin(self) -> None:

@@ -89,6 +89,7 @@ def ray_table(rangers: tuple[Ranger, ...]) -> NDArray[np.float64]:
     Parameters
     ----------
     rangers : tuple of Ranger
+        In the order of their numbers.
 
     Returns
     -------

@@ -41,6 +41,16 @@ def test_a_ranger_sees_between_its_limits_only():
         assert eyes.beam == pytest.approx(seen, rel=2e-3)
 
 
+def test_noise_never_shows_more_than_the_greatest_range():
+    eyes = eyes_in(hall(9.0), 1.0, 3.0, GENERIC)
+    seen = []
+    for _ in range(200):
+        eyes.look(9.0 - 0.795, 3.0, 0.0)
+        seen.append(eyes.beam)
+    assert math.inf in seen
+    assert max(reading for reading in seen if reading < math.inf) <= 0.8
+
+
 @pytest.mark.parametrize("gap", [0.15, 0.3, 0.6])
 def test_noise_has_the_profiles_deviation(gap):
     eyes = eyes_in(hall(9.0), 1.0, 3.0, GENERIC)

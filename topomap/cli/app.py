@@ -6,13 +6,13 @@ from typing import Annotated
 
 import typer
 
-from topomap.cli import world
 from topomap.cli.build import build
 from topomap.cli.compare import compare
 from topomap.cli.demo import demo
 from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
 from topomap.cli.show import show
+from topomap.cli.world import app as world
 
 __all__ = ["app"]
 
@@ -23,7 +23,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.command()(demo)
-app.add_typer(world.app, name="world")
+app.add_typer(world, name="world")
 app.command()(build)
 app.command()(compare)
 app.command()(merge)

@@ -31,7 +31,7 @@ def build(
     ] = None,
     closing: Annotated[
         str, typer.Option(help="What decides that the loop is closed.")
-    ] = "dempster-shafer",
+    ] = "likelihood",
     max_walls: Annotated[
         int, typer.Option(help="Give the loop up as open after so many walls.")
     ] = 5000,

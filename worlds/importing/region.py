@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 from worlds.fit import narrowest
-from worlds.jogs import straightened
+from worlds.jogs import jogs, without
 from worlds.world import Ring, World, WorldError, make_world
 
 if TYPE_CHECKING:
@@ -156,20 +156,26 @@ def thick(corners: NDArray[np.float64], half: float) -> BaseGeometry:
 def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:
     """Return a rectilinear region without jogs of at most `tolerance`.
 
-    A ring that would cross another, or itself, keeps its jogs.
+    A jog whose going would make its ring cross another, or itself, stays.
     """
     if tolerance == 0:
         return region
     rings = [*to_world(region, "").rings]
-    for k, ring in enumerate(rings):
-        trial = [*rings]
-        trial[k] = straightened(ring, tolerance, tolerance)
-        while len(trial[k]) < len(ring):
-            ring = trial[k]
-            trial[k] = straightened(ring, tolerance, tolerance)
-        polygon = shapely.Polygon(trial[0], trial[1:])
-        if polygon.is_valid and polygon.area > 0:
-            rings = trial
+    for k in range(len(rings)):
+        stuck: set[Ring] = set()
+        while found := jogs(rings[k], tolerance, tolerance):
+            # All at once if that goes well, else one after the other.
+            for dropped in (found, *([jog] for jog in found)):
+                ring = without(rings[k], dropped)
+                if ring in stuck or len(ring) == len(rings[k]):
+                    continue
+                trial = [*rings[:k], ring, *rings[k + 1 :]]
+                if shapely.Polygon(trial[0], trial[1:]).is_valid:
+                    rings = trial
+                    break
+                stuck.add(ring)
+            else:
+                break
     return _rounded(shapely.Polygon(rings[0], rings[1:]))
 
 
