@@ -282,7 +282,9 @@ def _disc(x: float, y: float, xx: float, xy: float, yy: float, radius: float) ->
         u, v, su, sv = v, u, sv, su
     if su <= 1e-9 * radius:
         return 1.0 if math.hypot(u, v) <= radius else 0.0
-    low, high = max(-radius, u - 8 * su), min(radius, u + 8 * su)
+    if sv <= 1e-9 * radius:
+        return float(_between(math.sqrt(max(radius**2 - v * v, 0.0)), u, su))
+    low, high = max(-radius, v - 8 * sv), min(radius, v + 8 * sv)
     if low >= high:
         return 0.0
     begin, end = math.asin(low / radius), math.asin(high / radius)
@@ -290,16 +292,15 @@ def _disc(x: float, y: float, xx: float, xy: float, yy: float, radius: float) ->
     for i in range(len(NODES)):
         angle = begin + (end - begin) * (NODES[i] + 1) / 2
         at, half = radius * math.sin(angle), radius * math.cos(angle)
-        density = math.exp(-0.5 * ((at - u) / su) ** 2) / (su * math.sqrt(2 * math.pi))
-        if sv > 0:
-            scale = 1.0 / (sv * math.sqrt(2.0))
-            inside = 0.5 * (
-                math.erf((half - v) * scale) - math.erf((-half - v) * scale)
-            )
-        else:
-            inside = 1.0 if -half <= v <= half else 0.0
-        total += WEIGHTS[i] * density * inside * half
+        density = math.exp(-0.5 * ((at - v) / sv) ** 2) / (sv * math.sqrt(2 * math.pi))
+        total += WEIGHTS[i] * density * _between(half, u, su) * half
     return min(max(total * (end - begin) / 2, 0.0), 1.0)
+
+
+@njit(cache=True, error_model="numpy")
+def _between(half: float, mean: float, deviation: float) -> float:
+    scale = 1.0 / (deviation * math.sqrt(2.0))
+    return 0.5 * (math.erf((half - mean) * scale) + math.erf((half + mean) * scale))
 
 
 def wilson_interval(hits: int, trials: int, z: float = 1.96) -> tuple[float, float]:
