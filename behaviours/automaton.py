@@ -141,16 +141,16 @@ def perform(
     start : state
         One of the automaton's starts.
 
-    Yields
-    ------
-    Primitive
-        The action of the present state.
-
     Returns
     -------
     list of (state, Outcome)
         What was done, in order; the last entry is the end reached, with the
         last outcome once more.
+
+    Yields
+    ------
+    Primitive
+        The action of the present state.
     """
     done: list[tuple[S, Outcome]] = []
     state = start

@@ -30,6 +30,10 @@ round the edge), and in FM beside a wall. A step inside the safe zone is an
 ill-defined corner, ILL: the robot regains r0 and goes on. HALL is the end where
 open space ends.
 
+A wall that juts out by less than r0 ends behind the robot when it has turned at
+the inner corner before it: FM then counts back to the edge, and the outer corner
+is placed r0 past it as any other.
+
 References
 ----------
 .. [K] S. Kadi, "Exploration multi-robots dans des environnements partiellement

@@ -201,7 +201,12 @@ class Outcome:
     """What a primitive came to."""
 
     distance: float
-    """Along the heading by odometry, in metres; never negative."""
+    """Along the heading by odometry, in metres.
+
+    Never negative, but for a `Follow` whose wall ended before its start, as
+    behind an inner corner whose wall is shorter than r0: a body may then go
+    back to the edge.
+    """
     reason: Reason
     readings: Readings
     """The last readings, taken where the robot now stands."""

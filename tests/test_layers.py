@@ -19,7 +19,7 @@ MAY_IMPORT = {
     "topomap": {
         *("behaviours", "evidence", "merge", "worlds"),
         *("numpy", "scipy", "networkx", "numba", "shapely"),
-        *("msgspec", "matplotlib", "typer", "rich", "PIL", "yaml"),
+        *("msgspec", "matplotlib", "typer", "rich", "PIL", "yaml", "distributed"),
     },
 }
 STANDARD = __import__("sys").stdlib_module_names

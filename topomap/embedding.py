@@ -13,6 +13,7 @@ from topomap.topological_map import TopologicalMap
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+    from scipy.sparse import csr_array, sparray
 __all__ = ["Embedding", "embed", "embedded"]
 
 
@@ -20,8 +21,10 @@ EXACT = 1e-4
 """Standard deviation, in metres, that stands in for an exact length."""
 SIDEWAYS = 1e-2
 """Standard deviation, in metres, of where a wall lies beside the robot."""
-DENSE = 600
-"""Up to so many unknowns the stiffness matrix is inverted as a dense one."""
+DENSE = 40
+"""Up to so many free vertices the stiffness is inverted as a dense matrix."""
+CHUNK = 128
+"""Columns of the inverse that are held at once; even."""
 
 
 class Embedding(NamedTuple):
@@ -66,8 +69,8 @@ def embed(chart: TopologicalMap) -> Embedding:
     same of a wall that a sensor has measured, and serves any direction. Where
     all edges run along x or y the two coordinates separate by themselves.
 
-    Sparse, near linear in the number of edges for maps of buildings; the
-    covariances take one solution of the factorised system a vertex.
+    The solution is sparse and near linear in the number of edges for maps of
+    buildings; the covariances take one more solution a vertex: O(V^2).
 
     Examples
     --------
@@ -96,7 +99,7 @@ def embed(chart: TopologicalMap) -> Embedding:
 
     solution, blocks = _solve(place[ends], *_springs(chart), len(free))
     positions, covariances = np.zeros((count, 2)), np.zeros((count, 2, 2))
-    positions[free], covariances[free] = solution.reshape(-1, 2), blocks
+    positions[free], covariances[free] = solution, blocks
     # Springs do not mind where they are: each part is moved to its anchor.
     return Embedding(positions + anchors[fixed][part], covariances)
 
@@ -174,57 +177,85 @@ def _solve(
     weight: NDArray[np.float64],
     size: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the best places, and the 2 x 2 blocks on their covariance's diagonal.
+    """Return the best places (size, 2) and their covariances (size, 2, 2).
 
     `ends` are places among `size` free ones; -1 stands for a fixed one, at 0.
     """
-    edges = len(ends)
-    rows = np.arange(2 * edges)
-    axes = np.arange(2)
-    columns = (2 * ends[:, :, None] + axes).transpose(0, 2, 1).reshape(2 * edges, 2)
-    source, target = columns.T
-    if 2 * size <= DENSE:
-        # Each edge's difference: the target's coordinates less the source's.
-        # The fixed vertices share the last two columns, which are cut off.
-        difference = np.zeros((2 * edges, 2 * size + 2))
-        difference[rows, target] = 1.0
-        difference[rows, source] = -1.0
-        difference = difference[:, : 2 * size]
-        pull = (weight @ difference.reshape(edges, 2, -1)).reshape(2 * edges, -1)
-        inverse = np.asarray(np.linalg.inv(difference.T @ pull), dtype=np.float64)
-        return inverse @ (pull.T @ way.ravel()), _blocks(inverse)
-    return _solve_sparse(source, target, way, weight, size)
+    if np.abs(weight[:, 0, 1]).max() > 1e-9 * weight.max():
+        return _solve_together(ends, way, weight, size)
+    places, covariances = np.empty((size, 2)), np.zeros((size, 2, 2))
+    for axis in (0, 1):
+        places[:, axis], covariances[:, axis, axis] = _solve_axis(
+            ends, way[:, axis], weight[:, axis, axis], size
+        )
+    return places, covariances
 
 
-def _solve_sparse(
-    source: NDArray[np.int64],
-    target: NDArray[np.int64],
+def _solve_axis(
+    ends: NDArray[np.int64],
     way: NDArray[np.float64],
     weight: NDArray[np.float64],
     size: int,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Do what `_solve` does for many vertices; fixed ones have negative columns."""
-    from scipy.sparse import block_diag, coo_array
+    """Return the best coordinates (size,) on one axis, and their variances."""
+    if size > DENSE:
+        from scipy.sparse import diags_array
+
+        places, blocks = _solve_sparse(
+            _differences(ends, size), diags_array(weight), way, 1
+        )
+        return places, blocks[:, 0, 0]
+    # The fixed vertices share the last column, which is cut off.
+    difference = np.zeros((len(ends), size + 1))
+    rows = np.arange(len(ends))
+    difference[rows, ends[:, 1]] = 1.0
+    difference[rows, ends[:, 0]] = -1.0
+    pull = weight[:, None] * difference[:, :size]
+    inverse = np.asarray(np.linalg.inv(difference[:, :size].T @ pull), dtype=np.float64)
+    return inverse @ (way @ pull), np.diagonal(inverse)
+
+
+def _solve_together(
+    ends: NDArray[np.int64],
+    way: NDArray[np.float64],
+    weight: NDArray[np.float64],
+    size: int,
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Do what `_solve` does for edges in any direction."""
+    from scipy.sparse import block_diag, eye_array, kron
+
+    difference = kron(_differences(ends, size), eye_array(2), format="csr")
+    places, blocks = _solve_sparse(
+        difference, block_diag(weight, format="csr"), way.ravel(), 2
+    )
+    return places.reshape(-1, 2), blocks
+
+
+def _differences(ends: NDArray[np.int64], size: int) -> csr_array:
+    """Return the matrix (edges, size) of target less source."""
+    from scipy.sparse import coo_array
+
+    edge, end = np.nonzero(ends >= 0)
+    values = np.where(end, 1.0, -1.0)
+    place = (edge, ends[edge, end])
+    return coo_array((values, place), shape=(len(ends), size)).tocsr()
+
+
+def _solve_sparse(
+    difference: csr_array, weight: sparray, way: NDArray[np.float64], width: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the least-squares solution, and its covariance's diagonal blocks."""
     from scipy.sparse.linalg import splu
 
-    rows = np.arange(len(source))
-    to, off = target >= 0, source >= 0
-    values = np.concatenate([np.ones(to.sum()), -np.ones(off.sum())])
-    place = (
-        np.concatenate([rows[to], rows[off]]),
-        np.concatenate([target[to], source[off]]),
-    )
-    difference = coo_array((values, place), shape=(len(rows), 2 * size)).tocsr()
-    pull = block_diag(weight, format="csr") @ difference
+    pull = weight @ difference
     factor = splu((difference.T @ pull).tocsc())
+    _, size = difference.shape
     blocks = []
-    for start in range(0, 2 * size, DENSE):
-        unit = np.eye(2 * size, min(DENSE, 2 * size - start), -start)
-        blocks.append(_blocks(factor.solve(unit)[start : start + unit.shape[1]]))
-    return factor.solve(pull.T @ way.ravel()), np.concatenate(blocks)
-
-
-def _blocks(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the 2 x 2 blocks on the diagonal of a square matrix."""
-    k = np.arange(len(matrix) // 2)
-    return matrix.reshape(len(k), 2, len(k), 2)[k, :, k, :]
+    for start in range(0, size, CHUNK):
+        count = min(CHUNK, size - start)
+        unit = np.zeros((size, count))
+        unit[start + np.arange(count), np.arange(count)] = 1.0
+        square = factor.solve(unit)[start : start + count]
+        k = np.arange(count // width)
+        blocks.append(square.reshape(len(k), width, len(k), width)[k, :, k, :])
+    return factor.solve(pull.T @ way), np.concatenate(blocks)

@@ -101,7 +101,7 @@ def draw_map(
                 color="#333333",
                 zorder=5,
             )
-    ax.set_aspect("equal", adjustable="datalim")
+    ax.set_aspect("equal", adjustable="box")
     ax.autoscale_view()
     ax.set_xlabel("x in m")
     ax.set_ylabel("y in m")

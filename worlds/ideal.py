@@ -10,6 +10,7 @@ whatever primitives it was made of.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from behaviours.port import (
@@ -47,6 +48,8 @@ TURN_TIME = 1.0
 """Seconds for a quarter turn."""
 EPS = 1e-9
 """Lengths that differ by less, in metres, are one length."""
+NEAR = 1e-6
+"""A wall that is off r0 by more, in metres, is one that has stepped."""
 
 
 class IdealBody:
@@ -151,8 +154,12 @@ class IdealBody:
         self._u += way
         self.travelled += abs(way)
         self.clock += abs(way) / SPEED
-        measured = abs(way) * self._scale
-        return Outcome(measured, reason, self._readings(), clearance=clearance)
+        return Outcome(way * self._scale, reason, self._readings(), clearance=clearance)
+
+    def _retreat(self, way: float, reason: Reason) -> Outcome:
+        """Go `way` metres backward and report: a primitive's way is positive."""
+        outcome = self._advance(-way, reason)
+        return replace(outcome, distance=-outcome.distance)
 
     def _sidle(self, shift: float, reason: Reason) -> Outcome:
         """Go `shift` metres to the left, as a short manoeuvre would, and report."""
@@ -177,7 +184,7 @@ class IdealBody:
 
     def _move(self, move: Move) -> Outcome:
         if move.direction is Direction.BACKWARD:
-            return self._advance(-move.distance, Reason.DONE)
+            return self._retreat(move.distance, Reason.DONE)
         room = self._room_ahead(move.keep)
         if room < move.distance - EPS:
             return self._advance(room, Reason.BLOCKED)
@@ -203,7 +210,7 @@ class IdealBody:
         if math.isinf(seen):
             raise WorldError("start", "no wall comes in sight: is the start inside?")
         reason = Reason.SEEN if seen < approach.limit else Reason.DONE
-        return self._advance(sense * seen, reason)
+        return self._advance(seen, reason) if sense > 0 else self._retreat(seen, reason)
 
     def _align(self, side: Side) -> Outcome:
         reach = self._sight.looking[self._quarters].beside(self._u, self._v, side)
@@ -216,7 +223,10 @@ class IdealBody:
         look = self._sight.looking[self._quarters]
         reach = look.beside(self._u, self._v, side)
         if reach > r_max + EPS:
-            return self._advance(0.0, Reason.RECEDED)
+            back = look.until_beside(self._u, self._v, side, r_max, -1)
+            return self._advance(-back if back < r0 else 0.0, Reason.RECEDED)
+        if abs(reach - r0) > NEAR:
+            return self._advance(0.0, Reason.STEPPED)
         room = self._room_ahead(r0)
         change, beyond = look.next_change(self._u, self._v, side, reach)
         way = min(room, change)

@@ -25,6 +25,8 @@ __all__ = ["Look", "Sight"]
 
 EPS = 1e-9
 """Lengths that differ by less, in metres, are one length."""
+ABEAM = 1e-6
+"""How far behind its end, in metres, a wall is surely beside the robot."""
 COS = (1, 0, -1, 0)
 SIN = (0, 1, 0, -1)
 
@@ -187,7 +189,9 @@ def _until_beside(walls, u, v, side, within, sense):  # type: ignore[no-untyped-
         if sense > 0 and walls[k, 2] > u + EPS:
             nearest = min(nearest, max(walls[k, 1] - u, 0.0))
         elif sense < 0 and walls[k, 1] < u - EPS:
-            nearest = min(nearest, max(u - walls[k, 2], 0.0))
+            # Abeam of its very end a wall is not beside the robot yet.
+            way = u - walls[k, 2]
+            nearest = min(nearest, way + ABEAM if way > -EPS else 0.0)
     return nearest
 
 

@@ -52,9 +52,36 @@ def test_dense_and_sparse_solutions_agree(monkeypatch):
     chart = measured(true_map(ROOM, Parameters()), np.random.default_rng(3), 0.1)
     dense = embed(chart)
     monkeypatch.setattr(embedding, "DENSE", 4)
+    monkeypatch.setattr(embedding, "CHUNK", 2)
     sparse = embed(chart)
     np.testing.assert_allclose(sparse.positions, dense.positions, atol=1e-9)
     np.testing.assert_allclose(sparse.covariances, dense.covariances, atol=1e-12)
+
+
+def test_solving_the_axes_together_or_apart_gives_the_same():
+    chart = measured(true_map(ROOM, Parameters()), np.random.default_rng(3), 0.1)
+    angle = 0.3
+    oblique = replace(
+        chart,
+        vertices=tuple(
+            replace(v, position=None, exits=tuple(e + angle for e in v.exits))
+            for v in chart.vertices
+        ),
+        edges=tuple(
+            replace(
+                e, source_exit=e.source_exit + angle, target_exit=e.target_exit + angle
+            )
+            for e in chart.edges
+        ),
+    )
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([[c, -s], [s, c]])
+    apart = embed(without_positions(chart))
+    together = embed(oblique)
+    np.testing.assert_allclose(together.positions, apart.positions @ turn.T, atol=1e-9)
+    np.testing.assert_allclose(
+        together.covariances, turn @ apart.covariances @ turn.T, atol=1e-9
+    )
 
 
 def test_covariances_are_those_of_repeated_embeddings():

@@ -21,7 +21,7 @@ Number = Annotated[float, msgspec.Meta(ge=-1e9, le=1e9)]
 """A finite number of a size that metres and degrees can have."""
 
 
-class ParametersRecord(msgspec.Struct):
+class ParametersRecord(msgspec.Struct, forbid_unknown_fields=True):
     """The lengths the robot kept, in metres."""
 
     r0: Number
@@ -30,7 +30,7 @@ class ParametersRecord(msgspec.Struct):
     r_w: Number
 
 
-class VertexRecord(msgspec.Struct, omit_defaults=True):
+class VertexRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True):
     """A vertex; angles in degrees."""
 
     id: int
@@ -41,14 +41,14 @@ class VertexRecord(msgspec.Struct, omit_defaults=True):
     covariance: tuple[tuple[Number, Number], tuple[Number, Number]] | None = None
 
 
-class LengthRecord(msgspec.Struct):
+class LengthRecord(msgspec.Struct, forbid_unknown_fields=True):
     """A measured length and its standard deviation, in metres."""
 
     value: Number
     sigma: Number
 
 
-class EdgeRecord(msgspec.Struct, omit_defaults=True):
+class EdgeRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True):
     """An edge; angles in degrees, lengths in metres."""
 
     source: int
@@ -61,7 +61,7 @@ class EdgeRecord(msgspec.Struct, omit_defaults=True):
     shift: Number = 0.0
 
 
-class MapRecord(msgspec.Struct, omit_defaults=True):
+class MapRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True):
     """A whole map file."""
 
     format: str

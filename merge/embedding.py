@@ -1,0 +1,143 @@
+"""Where the vertices of a measured graph lie."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from merge.graph import Graph
+
+__all__ = ["embed", "embed_with_covariances"]
+
+Floats = NDArray[np.float64]
+
+SIDEWAYS = 1e-3
+"""Standard deviation across an edge, as a share of that along it."""
+
+
+def embed(graph: Graph, sideways: float = SIDEWAYS) -> Floats:
+    r"""Find the positions that the measured lengths agree on best.
+
+    Each edge is a spring: its rest is the measured displacement, its stiffness
+    along the edge the inverse of the variance, [K]_ 4.3.3. The first vertex of each
+    connected part is at the origin.
+
+    Parameters
+    ----------
+    graph : Graph
+        Its `positions`, if any, are not used.
+    sideways : float, optional
+        Standard deviation across an edge as a share of that along it. The source
+        has it 0 (walls are straight); a thousandth gives its result to six digits,
+        and bears maps whose directions contradict each other a little.
+
+    Returns
+    -------
+    ndarray, shape (V, 2)
+        In metres, in the frame of the exits.
+
+    Notes
+    -----
+    One sparse linear system, solved directly: about O(V) for corridors. Where all
+    exits are parallel to the axes it falls apart into the source's two systems, for
+    x and for y, because no edge then couples them.
+    """
+    from scipy.sparse.linalg import spsolve
+
+    normal, pull, free = _springs(graph, sideways)
+    out = np.zeros(2 * len(graph))
+    if len(free):
+        out[free] = spsolve(normal[free][:, free].tocsc(), pull[free])
+    return out.reshape(-1, 2)
+
+
+def embed_with_covariances(
+    graph: Graph, sideways: float = SIDEWAYS
+) -> tuple[Floats, Floats]:
+    """Find the positions, and how sure they are relative to the first vertex.
+
+    Parameters
+    ----------
+    graph, sideways
+        As for `embed`.
+
+    Returns
+    -------
+    positions : ndarray, shape (V, 2)
+        In metres.
+    covariances : ndarray, shape (V, 2, 2)
+        In square metres; zero at the first vertex of each connected part.
+
+    Notes
+    -----
+    The blocks of the inverse are found by solving for 64 columns at a time:
+    O(V^2) time, O(V) memory.
+    """
+    from scipy.sparse.linalg import splu
+
+    normal, pull, free = _springs(graph, sideways)
+    out = np.zeros(2 * len(graph))
+    covariances = np.zeros((len(graph), 2, 2))
+    if len(free) == 0:
+        return out.reshape(-1, 2), covariances
+    solver = splu(normal[free][:, free].tocsc())
+    out[free] = solver.solve(pull[free])
+    step = 64
+    for start in range(0, len(free), step):
+        stop = min(start + step, len(free))
+        unit = np.zeros((len(free), stop - start))
+        unit[np.arange(start, stop), np.arange(stop - start)] = 1.0
+        columns = solver.solve(unit)
+        # free holds x and y of a vertex side by side, and step is even.
+        for k in range(start, stop):
+            pair = k - k % 2
+            covariances[free[k] // 2, :, free[k] % 2] = columns[
+                pair : pair + 2, k - start
+            ]
+    return out.reshape(-1, 2), covariances
+
+
+def _springs(graph: Graph, sideways: float) -> tuple[Any, Floats, Any]:
+    """Return the normal matrix, the pull, and the coordinates that are not fixed."""
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    size = len(graph)
+    u, i, v = graph.edges[:, 0], graph.edges[:, 1], graph.edges[:, 2]
+    angle = graph.exits[graph.first_exit[u] + i]
+    along = np.column_stack([np.cos(angle), np.sin(angle)])
+    # Directions a hair off an axis would couple x and y for nothing.
+    along = np.where(np.abs(along) < 1e-12, 0.0, along)
+    across = np.column_stack([-along[:, 1], along[:, 0]])
+    rest = graph.lengths[:, None] * along + graph.shifts[:, None] * across
+    stiff = 1.0 / graph.variances
+    info = stiff[:, None, None] * (
+        along[:, :, None] * along[:, None, :]
+        + across[:, :, None] * across[:, None, :] / sideways**2
+    )
+    force = np.einsum("kij,kj->ki", info, rest)
+    rows, columns, values = [], [], []
+    for r in (0, 1):
+        for c in (0, 1):
+            for one, other, sign in ((u, u, 1), (v, v, 1), (u, v, -1), (v, u, -1)):
+                rows.append(2 * one + r)
+                columns.append(2 * other + c)
+                values.append(sign * info[:, r, c])
+    normal = coo_array(
+        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
+        shape=(2 * size, 2 * size),
+    ).tocsr()
+    pull = np.zeros(2 * size)
+    for r in (0, 1):
+        np.add.at(pull, 2 * v + r, force[:, r])
+        np.add.at(pull, 2 * u + r, -force[:, r])
+    links = coo_array((np.ones(len(u)), (u, v)), shape=(size, size))
+    _, part = connected_components(links, directed=False)
+    _, anchors = np.unique(part, return_index=True)
+    free = np.ones(size, bool)
+    free[anchors] = False
+    vertices = np.flatnonzero(free)
+    return normal, pull, np.column_stack([2 * vertices, 2 * vertices + 1]).ravel()

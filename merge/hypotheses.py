@@ -1,0 +1,206 @@
+"""Which connected parts of two maps correspond."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from merge.layout import Layout, sign
+
+if TYPE_CHECKING:
+    from merge.options import Options
+
+__all__ = ["Hypotheses", "grow_hypotheses"]
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+UNIT = 2.0**-20
+"""Scores are added as whole numbers of this, so that the order cannot matter."""
+PRIOR = 5.0
+"""How many views the average over all vertices counts for beside the seen ones."""
+
+
+@dataclass(frozen=True, eq=False)
+class Hypotheses:
+    """Connected correspondences; each (pair, rotation) is in one at most."""
+
+    first: Ints
+    """Shape (H + 1,): pairs of hypothesis h are rows ``first[h]:first[h + 1]``."""
+    a: Ints
+    """Shape (P,): vertices of the first map."""
+    b: Ints
+    """Shape (P,): the vertices of the second map that they correspond to."""
+    darts: Ints
+    """Shape (P, 2): an exit of each that correspond: the rotation."""
+    score: Floats
+    """Shape (H,): log of how much likelier the match is if the maps do overlap."""
+    edges: Ints
+    """Shape (H,): matched edges."""
+    contradictions: Ints
+    """Shape (H,): exits at which the maps disagree; 0 unless the rim is tolerated."""
+    pairings: int
+    """Compatible pairs of vertices, each rotation counted [K 4.2.1]; where a map is
+    not rectilinear, those of equal type and number of exits."""
+    tried: int
+    """Pairs, with rotation, that agreed with their neighbourhood and were grown."""
+
+    def __len__(self) -> int:
+        """Return the number of hypotheses."""
+        return len(self.score)
+
+    def pairs(self, index: int) -> Ints:
+        """Return the vertex pairs of a hypothesis, shape (K, 2)."""
+        rows = slice(self.first[index], self.first[index + 1])
+        return np.column_stack([self.a[rows], self.b[rows]])
+
+
+def grow_hypotheses(
+    a: Layout,
+    b: Layout,
+    options: Options,
+    touched: tuple[NDArray[np.bool_], NDArray[np.bool_]] | None = None,
+) -> Hypotheses:
+    """Pair compatible vertices of two maps and grow the pairs, [K]_ 4.2.
+
+    A pair grows along corresponding edges whose lengths agree, to the vertices at
+    their ends. Where an edge or vertex does not agree, the whole hypothesis is
+    discarded, or ends there if the rim is tolerated. At an unexplored exit growth
+    stops, and that is no mismatch.
+
+    Parameters
+    ----------
+    a, b : Layout
+        From `merge.layout.lay_out`.
+    options : Options
+        Thresholds.
+    touched : pair of arrays of bool, shapes (V_A,) and (V_B,), optional
+        Only pairs with a marked vertex start to grow; all unless given.
+
+    Returns
+    -------
+    Hypotheses
+        Of at least ``options.least`` vertices each, in a fixed order.
+
+    Notes
+    -----
+    The source starts from every compatible pair. Here only pairs with two explored
+    exits in common start, and only where lengths and far vertices agree at both:
+    they are found by sorting both maps' exits by what they see. A connected match
+    of three vertices or more has such a pair, so no hypothesis is lost. A match that
+    runs into a mismatch is dropped at once instead of being grown to its end and
+    marked: what survives is the same, as the tests hold against the literal rule.
+    The cost grows with the plausible pairs.
+
+    References
+    ----------
+    .. [K] S. Kadi, "Exploration multi-robots dans des environnements partiellement
+       connus", Université de Constantine, 2009.
+    """
+    from merge.kernel import grow_all
+
+    signatures = sign(a, b)
+    width = int(max(signatures.a.max(initial=0), signatures.b.max(initial=0))) + 1
+    entries_a, keys_a = _entries(a, signatures.a, width, ordered=False)
+    entries_b, keys_b = _entries(b, signatures.b, width, ordered=True)
+    one = entries_b[:, 0]
+    low = b.length[one] - np.sqrt(options.most * b.variance[one])
+    rank_a = np.lexsort((entries_a[:, 0], keys_a))
+    rank_b = np.lexsort((low, keys_b))
+    gain_a, gain_b = _gains(a, b, signatures.a, signatures.b, width)
+    if touched is None:
+        only_a, only_b = np.ones(len(a.types), bool), np.ones(len(b.types), bool)
+    else:
+        only_a, only_b = touched
+    first, darts_a, darts_b, score, edges, against, tried = grow_all(
+        *(a, b, keys_a[rank_a], entries_a[rank_a]),
+        *(keys_b[rank_b], entries_b[rank_b], low[rank_b], gain_a, gain_b),
+        *(options.angle, options.most, int(options.doors), options.tolerate_rim),
+        *(options.least, only_a, only_b),
+    )
+    # Loops repeat what their other edges say: count each new vertex once.
+    sizes = np.diff(first)
+    share = np.minimum((sizes - 1) / np.maximum(edges, 1), 1.0)
+    return Hypotheses(
+        first=first,
+        a=a.owner[darts_a],
+        b=b.owner[darts_b],
+        darts=np.column_stack([darts_a, darts_b]),
+        score=score * UNIT * share,
+        edges=edges,
+        contradictions=against,
+        pairings=_count_pairings(a, signatures.a, signatures.b, width),
+        tried=int(tried),
+    )
+
+
+def _count_pairings(a: Layout, views_a: Ints, views_b: Ints, width: int) -> int:
+    """Count the ways in which a vertex of one map looks like one of the other."""
+    some = a.first[:-1] < a.first[1:]
+    first = views_a[a.first[:-1][some]]
+    return int(np.bincount(views_b, minlength=width)[first].sum())
+
+
+def _entries(
+    layout: Layout, views: Ints, width: int, ordered: bool
+) -> tuple[Ints, Ints]:
+    """Return pairs of solid exits of one vertex, and the keys of what they see."""
+    start = layout.first[layout.owner]
+    degree = np.diff(layout.first)[layout.owner]
+    place = np.arange(len(degree)) - start
+    firsts, seconds, steps = [], [], []
+    for step in range(1, int(degree.max(initial=1))):
+        other = start + (place + step) % np.maximum(degree, 1)
+        good = layout.solid & (step < degree) & layout.solid[other]
+        if not ordered:
+            good &= place + step < degree
+        chosen = np.flatnonzero(good)
+        firsts.append(chosen)
+        seconds.append(other[chosen])
+        steps.append(np.full(len(chosen), step))
+    if not firsts:
+        return np.zeros((0, 2), np.int64), np.zeros(0, np.int64)
+    one, two, gap = map(np.concatenate, (firsts, seconds, steps))
+    near, far = views[layout.twin[one]], views[layout.twin[two]]
+    keys = ((views[one] * 64 + gap) * width + near) * width + far
+    return np.column_stack([one, two]), keys
+
+
+def _gains(
+    a: Layout, b: Layout, views_a: Ints, views_b: Ints, width: int
+) -> tuple[Floats, Floats]:
+    """Return for each exit how surprising its length and its far vertex are.
+
+    Shape (D, 2): minus the log of the density of the length, and of the frequency of
+    the far view among those seen from the same view, in both maps together.
+    """
+    out = []
+    seen_a, seen_b = np.flatnonzero(a.twin >= 0), np.flatnonzero(b.twin >= 0)
+    pool = np.sort(np.concatenate([a.length[seen_a], b.length[seen_b]]))
+    view = np.concatenate([views_a[seen_a], views_b[seen_b]])
+    far = np.concatenate([views_a[a.twin[seen_a]], views_b[b.twin[seen_b]]])
+    of_view = np.bincount(view, minlength=width).astype(float)
+    of_far = np.bincount(far, minlength=width) / max(len(far), 1)
+    steps, index, count = np.unique(
+        view * width + far, return_inverse=True, return_counts=True
+    )
+    near, beyond = steps // width, steps % width
+    share = (count + PRIOR * of_far[beyond]) / (of_view[near] + PRIOR)
+    surprise = -np.log(share)[index]
+    for layout, seen, told in (
+        (a, seen_a, surprise[: len(seen_a)]),
+        (b, seen_b, surprise[len(seen_a) :]),
+    ):
+        gain = np.zeros((len(layout.owner), 2))
+        length = layout.length[seen]
+        reach = np.sqrt(6.0 * layout.variance[seen])
+        within = np.searchsorted(pool, length + reach, side="right")
+        within = within - np.searchsorted(pool, length - reach, side="left")
+        density = (within + 1) / ((len(pool) + 1) * 2 * reach)
+        gain[seen, 0] = -np.log(density)
+        gain[seen, 1] = np.where(layout.solid[seen], told, 0.0)
+        out.append(gain)
+    return out[0], out[1]

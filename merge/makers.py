@@ -1,0 +1,189 @@
+"""Worlds and partial maps to try a merger on."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from merge.graph import Graph
+
+__all__ = ["breadth_first", "cut", "make_maze", "perturb", "turn"]
+
+Ints = NDArray[np.int64]
+
+
+def make_maze(
+    rows: int,
+    columns: int,
+    rng: np.random.Generator,
+    loops: float = 0.15,
+    spacing: tuple[float, float] = (2.0, 8.0),
+    keep_straight: bool = False,
+) -> Graph:
+    """Make a random maze with loops, as [K]_ 5.2.1 tries its merger on.
+
+    Parameters
+    ----------
+    rows, columns : int
+        Cells of the grid, at least 2 each.
+    rng : numpy.random.Generator
+        Source of chance.
+    loops : float, optional
+        Share of the walls of a perfect maze that are then opened; in [0, 1].
+    spacing : pair of float, optional
+        Distances between neighbouring grid lines are drawn evenly from here, in
+        metres. Equal ends make all cells alike.
+    keep_straight : bool, optional
+        Whether a cell with two opposite passages is a vertex; else its corridor is
+        one long edge.
+
+    Returns
+    -------
+    Graph
+        Types are the numbers of exits; lengths are exact, with variance 1e-6.
+    """
+    if rows < 2 or columns < 2:
+        raise ValueError(f"a maze needs 2 rows and columns; got {rows}, {columns}")
+    x = np.concatenate([[0.0], np.cumsum(rng.uniform(*spacing, columns - 1))])
+    y = np.concatenate([[0.0], np.cumsum(rng.uniform(*spacing, rows - 1))])
+    open_ = _passages(rows, columns, rng, loops)
+    mask = np.asarray(open_.any(axis=1))
+    opposite = (open_[:, 0] == open_[:, 2]) & (open_[:, 1] == open_[:, 3])
+    straight = opposite & (open_.sum(axis=1) == 2)
+    if not keep_straight:
+        mask &= ~straight
+    number = np.where(mask, np.cumsum(mask) - 1, -1)
+    step = [1, columns, -1, -columns]
+    edges, lengths = [], []
+    at = np.column_stack([np.tile(x, rows), np.repeat(y, columns)])
+    for cell in np.flatnonzero(mask).tolist():
+        for way in (0, 1):
+            if open_[cell, way]:
+                end = cell + step[way]
+                while not mask[end]:
+                    end += step[way]
+                edges.append(
+                    (
+                        number[cell],
+                        int(open_[cell, :way].sum()),
+                        number[end],
+                        int(open_[end, : way + 2].sum()),
+                    )
+                )
+                lengths.append(float(np.abs(at[end] - at[cell]).sum()))
+    quarter = math.pi / 2
+    exits = [[quarter * way for way in np.flatnonzero(row)] for row in open_[mask]]
+    return Graph.of(
+        types=open_[mask].sum(axis=1),
+        exits=exits,
+        edges=edges,
+        lengths=lengths,
+        sigmas=np.full(len(lengths), 1e-3),
+        positions=at[mask],
+    )
+
+
+def _passages(
+    rows: int, columns: int, rng: np.random.Generator, loops: float
+) -> NDArray[np.bool_]:
+    """Open walls until all cells are joined, and some more; shape (cells, 4)."""
+    size = rows * columns
+    cell = np.arange(size)
+    right, up = cell[cell % columns < columns - 1], cell[cell < size - columns]
+    walls = np.concatenate(
+        [np.column_stack([right, right + 1]), np.column_stack([up, up + columns])]
+    )
+    root = list(range(size))
+
+    def find(k: int) -> int:
+        while root[k] != k:
+            root[k] = root[root[k]]
+            k = root[k]
+        return k
+
+    opened = np.zeros((size, 4), bool)
+    order = rng.permutation(len(walls))
+    extra = rng.random(len(walls)) < loops
+    for k in order.tolist():
+        one, two = int(walls[k, 0]), int(walls[k, 1])
+        first, second = find(one), find(two)
+        if first != second or extra[k]:
+            root[first] = second
+            way = 0 if two == one + 1 else 1
+            opened[one, way] = opened[two, way + 2] = True
+    return opened
+
+
+def breadth_first(graph: Graph, start: int, size: int) -> Ints:
+    """Return the first `size` vertices that a search from `start` reaches."""
+    near: list[list[int]] = [[] for _ in range(len(graph))]
+    for u, _, v, _ in graph.edges.tolist():
+        near[u].append(v)
+        near[v].append(u)
+    order, seen = [start], {start}
+    for vertex in order:
+        if len(order) >= size:
+            break
+        for other in near[vertex]:
+            if other not in seen:
+                seen.add(other)
+                order.append(other)
+    return np.array(order[:size])
+
+
+def cut(graph: Graph, vertices: Ints) -> Graph:
+    """Return the map of a robot that has been at these vertices only.
+
+    Vertex k of the result is ``vertices[k]``. All exits are kept; those that lead
+    elsewhere are unexplored.
+    """
+    place = np.full(len(graph), -1)
+    place[vertices] = np.arange(len(vertices))
+    inside = (place[graph.edges[:, 0]] >= 0) & (place[graph.edges[:, 2]] >= 0)
+    edges = graph.edges[inside].copy()
+    edges[:, 0], edges[:, 2] = place[edges[:, 0]], place[edges[:, 2]]
+    exits = [graph.exits_of(int(v)) for v in vertices]
+    return Graph(
+        types=graph.types[vertices],
+        first_exit=np.concatenate([[0], np.cumsum([len(e) for e in exits])]),
+        exits=np.concatenate(exits),
+        edges=edges,
+        lengths=graph.lengths[inside],
+        variances=graph.variances[inside],
+        shifts=graph.shifts[inside],
+        complete=graph.complete[vertices],
+        positions=None if graph.positions is None else graph.positions[vertices],
+    )
+
+
+def perturb(graph: Graph, sigma: float, rng: np.random.Generator) -> Graph:
+    """Measure every length anew, with an error of `sigma` times the length.
+
+    The result has no positions. What it states as its variance is what the robot
+    can know: from the measured length, not the true one.
+    """
+    measured = graph.lengths * (1 + sigma * rng.standard_normal(len(graph.lengths)))
+    measured = np.maximum(measured, 0.05 * graph.lengths)
+    return replace(
+        graph,
+        lengths=measured,
+        variances=(sigma * measured) ** 2 + 1e-6,
+        positions=None,
+    )
+
+
+def turn(graph: Graph, angle: float, rng: np.random.Generator) -> tuple[Graph, Ints]:
+    """Give a map another frame, `angle` radians round, and other vertex numbers.
+
+    Returns the map and, for each of its vertices, the number it had.
+    """
+    order = rng.permutation(len(graph))
+    turned = cut(graph, order)
+    at = turned.positions
+    if at is not None:
+        c, s = math.cos(angle), math.sin(angle)
+        at = at @ np.array([[c, s], [-s, c]])
+    return replace(turned, exits=turned.exits + angle, positions=at), order

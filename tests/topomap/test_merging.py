@@ -1,0 +1,179 @@
+"""Maps of robots become one map: the adapter, the command, what it refuses."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import worlds
+from behaviours.parameters import Parameters
+from topomap.cli import main
+from topomap.comparison import compare_maps
+from topomap.embedding import embedded
+from topomap.errors import InputError
+from topomap.files.map_files import load_map, save_map
+from topomap.merging import merge_maps
+from topomap.topological_map import Length, TopologicalMap, Vertex
+from topomap.truth import true_maps
+
+
+def truth(seed, corners=60):
+    world = worlds.make("random", np.random.default_rng(seed), corners=corners)
+    return true_maps(world, Parameters())[0]
+
+
+def part(chart, start, size, turn, sigma, rng):
+    """Return what a robot knows that has seen `size` vertices from `start` on."""
+    near = {v.id: [] for v in chart.vertices}
+    for edge in chart.edges:
+        near[edge.source].append(edge.target)
+        near[edge.target].append(edge.source)
+    seen = [start]
+    for vertex in seen:
+        seen += [v for v in sorted(near[vertex]) if v not in seen]
+        if len(seen) >= size:
+            break
+    seen = seen[:size]
+    edges = [e for e in chart.edges if e.source in seen and e.target in seen]
+    vertices = []
+    for vertex in chart.vertices:
+        if vertex.id not in seen:
+            continue
+        used = [e.source_exit for e in edges if e.source == vertex.id]
+        used += [e.target_exit for e in edges if e.target == vertex.id]
+        free = tuple(x for x in vertex.exits if all(abs(x - y) > 0.01 for y in used))
+        vertices.append(
+            Vertex(
+                vertex.id,
+                vertex.type,
+                tuple(x + turn for x in vertex.exits),
+                tuple(x + turn for x in free),
+            )
+        )
+    turned = [
+        replace(
+            edge,
+            source_exit=edge.source_exit + turn,
+            target_exit=edge.target_exit + turn,
+            lengths=(measured(edge.fused.value, sigma, rng),),
+        )
+        for edge in edges
+    ]
+    return TopologicalMap(tuple(vertices), tuple(turned), chart.parameters)
+
+
+def measured(value, sigma, rng):
+    seen = value * (1 + sigma * rng.standard_normal())
+    return Length(seen, sigma * seen)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_two_halves_of_a_world_become_its_map(seed):
+    rng = np.random.default_rng(seed)
+    chart = truth(seed)
+    ids = [v.id for v in chart.vertices]
+    size = int(0.75 * len(ids))
+    one = part(chart, ids[0], size, 0.0, 0.03, rng)
+    other = part(chart, ids[len(ids) // 2], size, math.pi / 2, 0.03, rng)
+    found = merge_maps([one, other])
+    assert found.accepted
+    assert found.reason == ""
+    assert compare_maps(found.map, chart).correct
+    (move,) = found.transforms
+    assert abs(math.remainder(move.angle + math.pi / 2, math.tau)) < 0.2
+    assert all(v.covariance is not None for v in found.map.vertices)
+
+
+def test_shared_edges_keep_the_measurements_of_both_robots():
+    chart = truth(1)
+    rng = np.random.default_rng(0)
+    one = part(chart, chart.vertices[0].id, len(chart.vertices), 0.0, 0.02, rng)
+    other = part(chart, chart.vertices[0].id, len(chart.vertices), 1.0, 0.02, rng)
+    found = merge_maps([one, other])
+    assert {len(edge.lengths) for edge in found.map.edges} == {2}
+    assert found.matched_vertices == len(chart.vertices)
+
+
+def test_maps_of_two_worlds_are_refused():
+    one, other = truth(1), truth(2)
+    found = merge_maps([one, other])
+    assert not found.accepted
+    assert found.map is None
+    assert found.transforms == (None,)
+    assert found.reason.startswith("map 2 does not surely fit map 1: ")
+
+
+def write(folder, *charts):
+    paths = [folder / f"{k}.json" for k in range(len(charts))]
+    for path, chart in zip(paths, charts, strict=True):
+        save_map(embedded(chart), path)
+    return [str(path) for path in paths]
+
+
+def test_command_writes_map_picture_and_one_json_object(tmp_path, capsys):
+    chart = truth(1)
+    rng = np.random.default_rng(0)
+    ids = [v.id for v in chart.vertices]
+    size = int(0.75 * len(ids))
+    halves = [
+        part(chart, ids[0], size, 0.0, 0.03, rng),
+        part(chart, ids[len(ids) // 2], size, 1.0, 0.03, rng),
+    ]
+    out, picture = tmp_path / "merged.json", tmp_path / "merge.svg"
+    code = main(
+        [
+            "merge",
+            *write(tmp_path, *halves),
+            "-o",
+            str(out),
+            "--json",
+            "--plot",
+            str(picture),
+        ]
+    )
+    told = json.loads(capsys.readouterr().out)
+    assert code == 0
+    assert told["accepted"] is True
+    assert told["vertices"] == len(load_map(out).vertices) == len(ids)
+    assert told["matched_vertices"] > 0
+    assert len(told["transforms"]) == 1
+    assert picture.read_text().startswith("<?xml")
+
+
+def test_refused_merge_writes_nothing_unless_forced(tmp_path, capsys):
+    paths = write(tmp_path, truth(1), truth(2))
+    out = tmp_path / "merged.json"
+    assert main(["merge", *paths, "-o", str(out)]) == 3
+    assert "topomap: merge refused: map 2 does not" in capsys.readouterr().err
+    assert not out.exists()
+    assert main(["merge", *paths, "-o", str(out), "--force"]) == 0
+    assert "forced, not sure" in capsys.readouterr().out
+    assert out.exists()
+
+
+def lone():
+    return TopologicalMap((Vertex(0, truth(1).vertices[0].type, ()),), ())
+
+
+@pytest.mark.parametrize(
+    ("maps", "message"),
+    [
+        ([], "maps: expected at least two maps; got 0"),
+        ([lone()] * 2, "maps[0]: vertices: expected at least two vertices; got 1"),
+    ],
+)
+def test_too_little_to_merge_is_bad_input(maps, message):
+    with pytest.raises(InputError) as error:
+        merge_maps(maps)
+    assert str(error.value) == message
+
+
+def test_share_out_of_range_is_bad_input(tmp_path, capsys):
+    paths = write(tmp_path, truth(1), truth(1))
+    code = main(["merge", *paths, "-o", "x.json", "--false-merge", "0"])
+    assert code == 2
+    assert "--false-merge: expected a share in (0, 1); got 0.0" in (
+        capsys.readouterr().err
+    )

@@ -1,0 +1,101 @@
+"""Draw how a map was built: the map over the walls, and the belief over time."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from topomap.drawing import draw_world
+from topomap.map_drawing import draw_map
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from topomap.boundary import Walk
+    from topomap.mapping import Build
+    from worlds.world import World
+
+__all__ = ["draw_belief", "fill_figure"]
+
+
+def fill_figure(built: Build, world: World, figure: Figure) -> None:
+    """Fill a figure: on the left the map over the walls, on the right the belief.
+
+    Parameters
+    ----------
+    built : Build
+        Its map is turned and moved to lie over the truth.
+    world : World
+        Where it was built.
+    figure : matplotlib.figure.Figure
+        Empty.
+    """
+    figure.set_size_inches(13, 7)
+    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
+    draw_world(world, left)
+    found = built.comparison
+    draw_map(
+        built.map,
+        left,
+        rotation=found.rotation or 0.0,
+        offset=found.offset or (built.start.x, built.start.y),
+    )
+    heading = built.start.heading
+    left.annotate(
+        "",
+        (
+            built.start.x + 0.6 * math.cos(heading),
+            built.start.y + 0.6 * math.sin(heading),
+        ),
+        (built.start.x, built.start.y),
+        arrowprops={"arrowstyle": "-|>", "color": "#ff7f00", "lw": 1.5},
+    )
+    verdict = "correct" if built.correct else "not correct"
+    left.set_title(
+        f"{len(built.map.vertices)} vertices, {verdict}, {built.travelled:.0f} m",
+        fontsize=9,
+    )
+    draw_belief(built.walk, right)
+
+
+def draw_belief(walk: Walk, ax: Axes) -> Axes:
+    """Draw what was believed of each closure after each wall walked.
+
+    Parameters
+    ----------
+    walk : Walk
+        With its decisions.
+    ax : matplotlib.axes.Axes
+        Drawn into.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The same axes.
+    """
+    believed = defaultdict(list)
+    for k, decision in enumerate(walk.decisions, 1):
+        for hypothesis in decision.hypotheses:
+            believed[hypothesis.period].append(
+                (k, hypothesis.belief, hypothesis.plausibility)
+            )
+    for period, rows in sorted(believed.items()):
+        at, belief, plausibility = np.array(rows).T
+        is_taken = period == walk.period
+        colour = "#2166ac" if is_taken else "#bbbbbb"
+        ax.fill_between(at, belief, plausibility, color=colour, alpha=0.15, lw=0)
+        label = f"loop of {period} walls" if is_taken else None
+        ax.plot(at, belief, "o-", color=colour, ms=3, label=label, zorder=2 + is_taken)
+    ax.set_xlim(0, len(walk.legs) + 1)
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel("walls walked")
+    ax.set_ylabel("belief (line) up to plausibility (shade)")
+    ax.set_title(f"{len(believed)} hypotheses", fontsize=9)
+    if walk.period in believed:
+        ax.legend(fontsize=7, loc="lower right")
+    ax.grid(alpha=0.3)
+    return ax

@@ -1,0 +1,51 @@
+"""Which commands there are."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from topomap.cli.build import build
+from topomap.cli.compare import compare
+from topomap.cli.demo import demo
+from topomap.cli.merge import merge
+from topomap.cli.reproduce import reproduce
+from topomap.cli.show import show
+from topomap.cli.world import app as world
+
+__all__ = ["app"]
+
+app = typer.Typer(
+    help="Topological mapping and map merging with sensing-limited robots.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+app.command()(demo)
+app.add_typer(world, name="world")
+app.command()(build)
+app.command()(compare)
+app.command()(merge)
+app.command()(show)
+app.command()(reproduce)
+
+
+def _tell_version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        typer.echo(f"topomap {version('topomap-robots')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _program(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_tell_version, is_eager=True, help="Tell the version."
+        ),
+    ] = False,
+) -> None:
+    """Topological mapping and map merging with sensing-limited robots."""

@@ -1,0 +1,137 @@
+"""`topomap build`: one robot builds a map of a world."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from topomap.mapping import Build
+    from worlds.pose import Pose
+    from worlds.world import World
+
+__all__ = ["build"]
+
+
+def build(
+    world: Annotated[Path, typer.Argument(help="World file.")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="Map file to write.")],
+    body: Annotated[
+        str, typer.Option(help="ideal, physical, or a physical robot's profile.")
+    ] = "ideal",
+    sigma: Annotated[
+        float, typer.Option(help="Error of a measured length, as a part of it.")
+    ] = 0.06,
+    seed: Annotated[int, typer.Option(help="Seed of all that is drawn.")] = 0,
+    start: Annotated[
+        str | None, typer.Option(help="X,Y,DEG where the robot is set down.")
+    ] = None,
+    closing: Annotated[
+        str, typer.Option(help="What decides that the loop is closed.")
+    ] = "likelihood",
+    max_walls: Annotated[
+        int, typer.Option(help="Give the loop up as open after so many walls.")
+    ] = 5000,
+    plot: Annotated[
+        Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
+    ] = None,
+    as_json: Annotated[
+        bool, typer.Option("--json", help="Print one JSON object and nothing else.")
+    ] = False,
+) -> None:
+    """Let one robot build the map of the boundary it first meets."""
+    import numpy as np
+
+    from topomap.bodies import body_parameters
+    from topomap.cli.console import say, show_json, watched
+    from topomap.closers import make_closer
+    from topomap.errors import JobError
+    from topomap.files.map_files import save_map
+    from topomap.files.world_files import load_world
+    from topomap.mapping import build_map
+
+    place = load_world(world)
+    began = time.perf_counter()
+    with watched(make_closer(closing, sigma, body_parameters(body))) as closer:
+        built = build_map(
+            place,
+            np.random.default_rng(seed),
+            body=body,
+            sigma=sigma,
+            start=None if start is None else _pose(start),
+            closing=closer,
+            max_walls=max_walls,
+        )
+    elapsed = time.perf_counter() - began
+    if plot is not None:
+        draw_build(built, place, plot)
+    if built.closed:
+        save_map(built.map, output)
+    if as_json:
+        show_json(summary(built, elapsed))
+    if not built.closed:
+        raise JobError(
+            f"no closure found after {len(built.walk.legs)} walls: "
+            f"{built.walk.decisions[-1].reason}"
+        )
+    if not as_json:
+        say(_sentence(built, output))
+
+
+def summary(built: Build, elapsed: float) -> dict[str, Any]:
+    """Return what `build --json` prints."""
+    rmse = built.comparison.position_rmse
+    return {
+        "closed": built.closed,
+        "correct": built.correct,
+        "vertices": len(built.map.vertices),
+        "edges": len(built.map.edges),
+        "islands": 0,
+        "unexplored_exits": built.map.unexplored_exits,
+        "travelled_m": round(built.travelled, 3),
+        "simulated_s": round(built.simulated, 3),
+        "elapsed_s": round(elapsed, 3),
+        "position_rmse_m": None if rmse is None else round(rmse, 4),
+        "hypotheses": built.hypotheses,
+        "collisions": built.collisions,
+        "walls": len(built.walk.legs),
+        "error_probability": built.walk.decisions[-1].error_probability,
+        "reason": built.walk.decisions[-1].reason,
+    }
+
+
+def draw_build(built: Build, world: World, path: Path) -> None:
+    """Draw the map over the world's walls, and what was believed on the way."""
+    from topomap.build_drawing import fill_figure
+    from topomap.drawing import save_figure
+
+    save_figure(path, lambda figure: fill_figure(built, world, figure))
+
+
+def _pose(text: str) -> Pose:
+    """Read X,Y,DEG."""
+    import math
+
+    from topomap.errors import InputError
+    from worlds.pose import Pose
+
+    try:
+        x, y, degrees = (float(part) for part in text.split(","))
+    except ValueError:
+        raise InputError("--start", "", text, "three numbers X,Y,DEG") from None
+    if not all(math.isfinite(value) for value in (x, y, degrees)):
+        raise InputError("--start", "", text, "three finite numbers X,Y,DEG")
+    return Pose(x, y, math.radians(degrees))
+
+
+def _sentence(built: Build, output: Path) -> str:
+    """Say in one line what was built."""
+    verdict = "correct" if built.correct else "WRONG"
+    return (
+        f"{output}: {len(built.map.vertices)} vertices, closed after "
+        f"{len(built.walk.legs)} walls and {built.travelled:.1f} m; {verdict} against "
+        f"the world's truth"
+    )

@@ -1,0 +1,49 @@
+"""`topomap demo`: the main job, from nothing to a picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+__all__ = ["demo"]
+
+SEED = 7
+CORNERS = 24
+
+
+def demo(
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="Folder of the results.")
+    ] = Path("demo"),
+) -> None:
+    """Make a world, let a physical robot map it, and draw what it found."""
+    import numpy as np
+
+    import worlds
+    from topomap.cli.build import draw_build
+    from topomap.cli.console import progress, say
+    from topomap.drawing import draw_world, save_picture
+    from topomap.files.atomic import make_folder
+    from topomap.files.map_files import save_map
+    from topomap.files.world_files import save_world
+    from topomap.mapping import build_map
+
+    make_folder(output)
+    rng = np.random.default_rng(SEED)
+    world = worlds.make("random", rng, corners=CORNERS, islands=1)
+    save_world(world, output / "world.json")
+    save_picture(output / "world.svg", lambda ax: draw_world(world, ax))
+    with progress("a robot that sees 80 cm maps a world"):
+        built = build_map(world, rng, body="physical")
+    save_map(built.map, output / "map.json")
+    draw_build(built, world, output / "build.svg")
+    say(
+        f"{output}: a world of {CORNERS} corners, mapped in {built.travelled:.0f} m "
+        f"and {built.simulated / 60:.0f} minutes of the robot's time: "
+        f"{len(built.map.vertices)} vertices, "
+        f"{'correct' if built.correct else 'not correct'}"
+    )
+    for name in ("world.json", "world.svg", "map.json", "build.svg"):
+        say(f"  {output / name}")

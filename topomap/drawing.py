@@ -1,0 +1,128 @@
+"""How worlds are drawn."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from topomap.errors import InputError
+from topomap.files.atomic import write_atomically
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from worlds.world import World
+
+__all__ = ["draw_world", "save_figure", "save_picture"]
+
+SUFFIXES = ".svg", ".png", ".pdf"
+SOLID, FREE, EDGE = "#c9ccd1", "#ffffff", "#3a3f47"
+LONG_SIDE = 9.0
+"""Of a picture, in inches."""
+
+
+def draw_world(world: World, ax: Axes) -> None:
+    """Draw a world with its walls filled, in metres.
+
+    Parameters
+    ----------
+    world : World
+        Any.
+    ax : matplotlib.axes.Axes
+        Drawn on; its limits are set to hold the world and a rim around it.
+    """
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path as Outline
+
+    low = np.min(world.outer, axis=0)
+    high = np.max(world.outer, axis=0)
+    rim = 0.04 * float(max(high - low))
+    ax.set_facecolor(SOLID)
+    paths = [Outline([*ring, ring[0]], closed=True) for ring in world.rings]
+    ax.add_patch(
+        PathPatch(
+            Outline.make_compound_path(*paths),
+            facecolor=FREE,
+            edgecolor=EDGE,
+            linewidth=1.0,
+            joinstyle="miter",
+        )
+    )
+    ax.set_xlim(low[0] - rim, high[0] + rim)
+    ax.set_ylim(low[1] - rim, high[1] + rim)
+    ax.set_aspect("equal")
+    ax.set_xlabel("x in m")
+    ax.set_ylabel("y in m")
+    if world.name:
+        ax.set_title(world.name)
+    ax.tick_params(direction="out", length=3)
+    for spine in ax.spines.values():
+        spine.set_visible(False)
+
+
+def save_picture(path: str | PathLike[str], draw: Callable[[Axes], object]) -> None:
+    """Make a picture of what a function draws, whole or not at all.
+
+    Parameters
+    ----------
+    path : path-like
+        The suffix says the format: ``.svg``, ``.png`` or ``.pdf``.
+    draw : callable
+        Draws on the axes that it is given.
+
+    Raises
+    ------
+    InputError
+        If the suffix is another one, or the file cannot be written.
+    """
+
+    def fill(figure: Figure) -> None:
+        ax = figure.add_subplot()
+        draw(ax)
+        width = float(np.ptp(ax.get_xlim()))
+        height = float(np.ptp(ax.get_ylim()))
+        scale = (LONG_SIDE - 1.0) / max(width, height)
+        figure.set_size_inches(max(3, 1 + scale * width), max(3, 1 + scale * height))
+
+    save_figure(path, fill)
+
+
+def save_figure(path: str | PathLike[str], fill: Callable[[Figure], None]) -> None:
+    """Make a picture of a whole figure, whole or not at all.
+
+    Parameters
+    ----------
+    path : path-like
+        The suffix says the format: ``.svg``, ``.png`` or ``.pdf``.
+    fill : callable
+        Adds axes to the empty figure that it is given, and draws on them.
+
+    Raises
+    ------
+    InputError
+        If the suffix is another one, or the file cannot be written.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(
+            fspath(path), "suffix", suffix, "one of " + ", ".join(SUFFIXES)
+        )
+    from matplotlib import rc_context
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    # The same drawing gives the same bytes: no date, no random ids.
+    with rc_context({"svg.hashsalt": "topomap"}):
+        figure = Figure(figsize=(LONG_SIDE, LONG_SIDE), layout="constrained")
+        FigureCanvasAgg(figure)
+        fill(figure)
+        stamp = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(suffix)
+        picture = io.BytesIO()
+        figure.savefig(picture, format=suffix[1:], dpi=150, metadata=stamp)
+    write_atomically(path, picture.getvalue())

@@ -1,0 +1,1 @@
+"""Named experiments: each measures a claim, with its interval, again and again."""

@@ -1,0 +1,41 @@
+"""The experiments by name."""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from topomap.errors import InputError
+
+if TYPE_CHECKING:
+    from topomap.experiments.experiment import Experiment
+
+__all__ = ["catalogue", "find"]
+
+MODULES = ("topomap.experiments.mapping",)
+"""Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
+
+
+@cache
+def catalogue() -> dict[str, Experiment]:
+    """Return all experiments by name."""
+    return {
+        experiment.name: experiment
+        for module in MODULES
+        for experiment in import_module(module).EXPERIMENTS
+    }
+
+
+def find(name: str) -> Experiment:
+    """Return the experiment of a name.
+
+    Raises
+    ------
+    InputError
+        If there is none.
+    """
+    known = catalogue()
+    if name not in known:
+        raise InputError("", "experiment", name, f"one of {', '.join(sorted(known))}")
+    return known[name]

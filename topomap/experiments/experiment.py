@@ -1,0 +1,75 @@
+"""What an experiment is: cells to fill, and how a batch of trials fills one."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+__all__ = ["Batch", "Cell", "Experiment", "Tallies", "Task", "run_task", "tasks_of"]
+
+Cell: TypeAlias = "Mapping[str, str | int | float]"
+"""The conditions of a row of the table, by name."""
+Tallies: TypeAlias = "dict[str, float]"
+"""Sums over trials, by measure."""
+Batch: TypeAlias = "Callable[[Cell, np.random.Generator, int], Tallies]"
+"""Makes so many trials in a cell and adds up what came of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Experiment:
+    """A question, the conditions under which it is put, and how it is answered."""
+
+    name: str
+    question: str
+    """One line: what the table will say."""
+    cells: tuple[Cell, ...]
+    batch: Batch
+    """A function at the top level of a module, so that workers can import it."""
+    trials: int
+    """Trials a cell, unless asked otherwise."""
+    batch_size: int
+    """Trials a task: some seconds of work."""
+    shares: tuple[str, ...]
+    """Tallies that are shares of the trials, shown with Wilson intervals."""
+    means: tuple[str, ...] = ()
+    """Tallies shown as means over the trials."""
+    x: str = ""
+    """The condition along the plot's axis; the others tell its lines apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """One batch of one cell; knows its own seed, so order does not matter."""
+
+    experiment: str
+    cell: int
+    batch: int
+    trials: int
+    seed: int
+
+
+def tasks_of(experiment: Experiment, trials: int, seed: int) -> list[Task]:
+    """Split an experiment into tasks, the same ones however they are run."""
+    size = experiment.batch_size
+    return [
+        Task(experiment.name, cell, first // size, min(size, trials - first), seed)
+        for cell in range(len(experiment.cells))
+        for first in range(0, trials, size)
+    ]
+
+
+def run_task(experiment: Experiment, task: Task) -> Tallies:
+    """Make the trials of one task.
+
+    The generator is seeded by the task's seed, its cell's conditions and its
+    batch: the same whatever else is run, and by whom.
+    """
+    cell = experiment.cells[task.cell]
+    conditions = repr(sorted(cell.items())).encode()
+    key = [task.seed, zlib.crc32(experiment.name.encode()), zlib.crc32(conditions)]
+    rng = np.random.default_rng([*key, task.batch])
+    return {**experiment.batch(cell, rng, task.trials), "trials": task.trials}

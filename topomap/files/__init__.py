@@ -1,0 +1,1 @@
+"""Files: what is read is checked, what is written is written whole."""

@@ -1,0 +1,260 @@
+"""One map out of the maps of robots that do not know where the others started."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from behaviours.vertices import VertexType
+from merge.embedding import embed_with_covariances
+from merge.fleet import Fleet, Group, merge_fleet
+from merge.graph import Graph
+from merge.options import Options
+from merge.rigid import RigidTransform, register_rigid
+from topomap.embedding import EXACT
+from topomap.errors import InputError
+from topomap.topological_map import (
+    Edge,
+    Length,
+    TopologicalMap,
+    Vertex,
+    same_direction,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+__all__ = ["Merge", "merge_maps", "to_graph"]
+
+KINDS = tuple(VertexType)
+Mapper = Callable[..., Iterable[Any]]
+
+
+@dataclass(frozen=True, eq=False)
+class Merge:
+    """What merging maps came to."""
+
+    accepted: bool
+    """Whether all maps fit together and no other way to join them is likely."""
+    reason: str
+    """Why not; empty where accepted."""
+    false_merge_probability: float
+    """How likely the merged map is wrong, in (0, 1]."""
+    map: TopologicalMap | None
+    """In the first map's frame; None where refused, unless forced."""
+    transforms: tuple[RigidTransform | None, ...]
+    """One per map after the first: takes it into the first one's frame; None for a
+    map that stays apart."""
+    matched_vertices: int
+    """Places that more than one of the merged maps has."""
+    fleet: Fleet
+    """Groups, and the overlay of each two maps."""
+
+    @property
+    def pairings(self) -> int:
+        """Compatible pairs of vertices, over all pairs of maps."""
+        return sum(link.match.hypotheses.pairings for link in self.fleet.links)
+
+    @property
+    def hypotheses(self) -> int:
+        """Connected correspondences that survived growth, over all pairs of maps."""
+        return sum(len(link.match.hypotheses) for link in self.fleet.links)
+
+    @property
+    def clusters(self) -> int:
+        """Different overlays that the hypotheses ask for, over all pairs of maps."""
+        return sum(
+            len(link.match.alternatives) + (link.match.best is not None)
+            for link in self.fleet.links
+        )
+
+
+def merge_maps(
+    maps: Sequence[TopologicalMap],
+    options: Options | None = None,
+    *,
+    force: bool = False,
+    mapper: Mapper = map,
+) -> Merge:
+    """Merge maps whose frames have nothing to do with each other.
+
+    Parameters
+    ----------
+    maps : sequence of TopologicalMap, at least 2
+        Any rotation, any overlap. The result is in the frame of the first.
+    options : merge.options.Options, optional
+        How strict to be.
+    force : bool
+        Return the map of the likeliest overlays even where they are refused.
+    mapper : callable
+        Used as ``map`` over the pairs of maps; that of an executor runs them on many
+        cores.
+
+    Returns
+    -------
+    Merge
+        Refused, with the reason, where a map does not surely fit.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two maps, or one has no vertex or only one.
+
+    Notes
+    -----
+    `merge.fleet.merge_fleet` does the work on plain graphs. Exact lengths count as
+    known to 0.1 mm.
+    """
+    if len(maps) < 2:
+        raise InputError("maps", "", len(maps), "at least two maps")
+    for k, chart in enumerate(maps):
+        if len(chart.vertices) < 2:
+            raise InputError(
+                f"maps[{k}]", "vertices", len(chart.vertices), "at least two vertices"
+            )
+    options = options or Options()
+    graphs = [to_graph(chart) for chart in maps]
+    fleet = merge_fleet(graphs, options, mapper)
+    group = next(group for group in fleet.groups if 0 in group.members)
+    apart = [k for k in range(len(maps)) if k not in group.members]
+    reason = _refusal(fleet, apart)
+    wrong = _false_probability(fleet, group, len(maps))
+    if apart and force:
+        lax = replace(options, false_merge=1 - 1e-9)
+        fleet = merge_fleet(graphs, lax, mapper)
+        group = next(group for group in fleet.groups if 0 in group.members)
+    where = dict(zip(group.members, group.transforms, strict=True))
+    if 0 in where and len(group.members) > 1:
+        seen = np.bincount(np.concatenate(group.vertices))
+        matched = int((seen > 1).sum())
+    else:
+        matched = 0
+    return Merge(
+        accepted=not apart,
+        reason=reason,
+        false_merge_probability=wrong,
+        map=_chart(maps, group) if force or not apart else None,
+        transforms=tuple(where.get(k) for k in range(1, len(maps))),
+        matched_vertices=matched,
+        fleet=fleet,
+    )
+
+
+def to_graph(chart: TopologicalMap) -> Graph:
+    """Return a map as the plain graph that `merge` works on; vertices in order."""
+    index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
+    fused = [edge.fused for edge in chart.edges]
+    return Graph.of(
+        types=[KINDS.index(vertex.type) for vertex in chart.vertices],
+        exits=[vertex.exits for vertex in chart.vertices],
+        edges=[
+            (
+                index[edge.source],
+                _exit(chart.vertices[index[edge.source]], edge.source_exit),
+                index[edge.target],
+                _exit(chart.vertices[index[edge.target]], edge.target_exit),
+            )
+            for edge in chart.edges
+        ],
+        lengths=[length.value for length in fused],
+        sigmas=[max(length.sigma, EXACT) for length in fused],
+        shifts=[edge.shift for edge in chart.edges],
+    )
+
+
+def _exit(vertex: Vertex, direction: float) -> int:
+    return next(
+        k for k, way in enumerate(vertex.exits) if same_direction(way, direction)
+    )
+
+
+def _refusal(fleet: Fleet, apart: list[int]) -> str:
+    """Say why the maps that stay apart do so."""
+    said = []
+    for k in apart:
+        tries = [link for link in fleet.links if k in (link.a, link.b)]
+        best = min(tries, key=lambda link: link.match.false_merge_probability)
+        other = best.a + best.b - k
+        said.append(f"map {k + 1} does not surely fit map {other + 1}: {best.reason}")
+    return "; ".join(reason.removesuffix(": ") for reason in said)
+
+
+def _false_probability(fleet: Fleet, group: Group, count: int) -> float:
+    """Return how likely a map is laid wrongly over the rest of its group.
+
+    Of the maps that stay apart the likeliest overlay counts, refused as it was.
+    """
+    right = 1.0
+    for k in range(1, count):
+        right *= 1 - min(
+            link.match.false_merge_probability
+            for link in fleet.links
+            if k in (link.a, link.b) and (link.kept or k not in group.members)
+        )
+    return 1 - right
+
+
+def _chart(maps: Sequence[TopologicalMap], group: Group) -> TopologicalMap:
+    """Return the merged graph as a map, with every measurement of every robot."""
+    graph = group.graph
+    positions, covariances = embed_with_covariances(graph)
+    if len(graph) > 1:
+        positions = register_rigid(positions, _given(graph))(positions)
+    lengths: list[list[Length]] = [[] for _ in graph.edges]
+    sources: list[Edge | None] = [None] * len(graph.edges)
+    clearance = [math.inf] * len(graph.edges)
+    for k, where in zip(group.members, group.edges, strict=True):
+        for edge, place in zip(maps[k].edges, where.tolist(), strict=True):
+            lengths[place] += edge.lengths
+            sources[place] = sources[place] or edge
+            if edge.clearance is not None:
+                clearance[place] = min(clearance[place], edge.clearance)
+    edges = tuple(
+        Edge(
+            source=u,
+            target=v,
+            source_exit=float(graph.exits_of(u)[i]),
+            target_exit=float(graph.exits_of(v)[j]),
+            lengths=tuple(lengths[k]),
+            behaviour=_behaviour(sources[k]),
+            shift=float(graph.shifts[k]),
+            clearance=clearance[k] if math.isfinite(clearance[k]) else None,
+        )
+        for k, (u, i, v, j) in enumerate(graph.edges.tolist())
+    )
+    free: list[list[float]] = [[] for _ in range(len(graph))]
+    for v, i in graph.unexplored().tolist():
+        free[v].append(float(graph.exits_of(v)[i]))
+    vertices = tuple(
+        Vertex(
+            id=v,
+            type=KINDS[int(graph.types[v])],
+            exits=tuple(graph.exits_of(v).tolist()),
+            unexplored=tuple(free[v]),
+            position=(float(positions[v, 0]), float(positions[v, 1])),
+            covariance=_rows(covariances[v]),
+        )
+        for v in range(len(graph))
+    )
+    return TopologicalMap(vertices, edges, maps[group.members[0]].parameters)
+
+
+def _given(graph: Graph) -> NDArray[np.float64]:
+    if graph.positions is None:
+        raise ValueError("positions: expected those of a merged group; got None")
+    return graph.positions
+
+
+def _behaviour(edge: Edge | None) -> str:
+    return "WF" if edge is None else edge.behaviour
+
+
+def _rows(
+    matrix: NDArray[np.float64],
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    (a, b), (c, d) = matrix.tolist()
+    return (a, b), (c, d)

@@ -1,0 +1,1 @@
+"""Worlds from files that others made: floor plans, robot maps, pictures."""

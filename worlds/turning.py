@@ -1,0 +1,136 @@
+"""How a robot turns by 90 degrees and squares up with a wall."""
+
+from __future__ import annotations
+
+import math
+
+from behaviours.port import Align, Outcome, Reason, Side, Turn
+from worlds.profile import Ranger, looks_along
+from worlds.robot import Robot
+from worlds.scan import wall_of_scan
+from worlds.straight import SURE, Control, go, settle, stop
+
+__all__ = ["align", "turn"]
+
+SWEEP = math.radians(50)
+"""A wall to square up with is looked for so far to either side, in radians."""
+SQUARE = 0.01
+"""Deviation of the heading after an exact sweep, in radians."""
+ROUND = 0.005
+"""Least error of a range that a sweep reckons with, in parts of r0."""
+REACH = 0.85
+"""Part of its range in which a ranger sees all of its spot on a slanted wall."""
+CLOSE = 1 / 15
+"""An offset nearer to r0 than this, in parts of r0, is left to following."""
+
+
+def spin(robot: Robot, angle: float) -> Control[None]:
+    """Turn on the spot by an angle, by the wheels' count."""
+    goal = robot.turned + angle
+    rate = robot.profile.turn_rate
+    while abs(rest := goal - robot.turned) > 0.004:
+        wish = 5.0 * rest
+        robot.drive(0.0, min(max(wish, -rate), rate))
+        yield
+    yield from stop(robot)
+
+
+def turn(robot: Robot, primitive: Turn) -> Control[Outcome]:
+    """Turn by 90 degrees, and undo what the robot leaned."""
+    yield from quarter(robot, primitive.side)
+    robot.begin_leg()
+    yield from settle(robot)
+    return Outcome(0.0, Reason.DONE, robot.readings())
+
+
+def quarter(robot: Robot, side: Side) -> Control[None]:
+    """Turn to the axis on one side of the present one."""
+    angle = side.value * math.pi / 2
+    yield from stop(robot)
+    yield from spin(robot, angle - robot.lean)
+    robot.lean -= angle
+    robot.lean_variance += robot.profile.turn_error**2 + 1e-6
+    robot.begin_spin()
+
+
+def align(robot: Robot, primitive: Align) -> Control[Outcome]:
+    """Stand parallel to the wall on one side, r0 from it.
+
+    The robot turns to face the wall. Unless it knows its heading from following,
+    it sweeps its front ranger over the wall: 1 / range = cos(angle - normal) / d,
+    linear in the two unknowns. It then drives to r0, facing the wall or dead
+    reckoned, and turns back: no way along the wall, no room needed but its own.
+    """
+    side, r0 = primitive.side, robot.parameters.r0
+    yield from settle(robot)
+    known = robot.lean_variance < SURE
+    beside = yield from _mean_side(robot, side)
+    if known and robot.stepped_to is not None:
+        beside = robot.stepped_to
+    if known and beside > robot.parameters.r_max + CLOSE * r0:
+        return Outcome(0.0, Reason.RECEDED, robot.readings())
+    if known and abs(beside - r0) < CLOSE * r0:
+        return Outcome(0.0, Reason.DONE, robot.readings())
+    yield from quarter(robot, side)
+    if not known:
+        beside = yield from _square_up(robot, side)
+    reason = Reason.RECEDED
+    advance = 0.0
+    if beside <= robot.parameters.r_max + CLOSE * r0:
+        reason = Reason.DONE
+        start = robot.odometer
+        yield from go(robot, beside - r0, keep=robot.parameters.r_min)
+        advance = robot.odometer - start
+    yield from quarter(robot, side.opposite)
+    yield from settle(robot)
+    return Outcome(0.0, reason, robot.readings(), shift=side.value * advance)
+
+
+def _mean_side(robot: Robot, side: Side, looks: int = 4) -> Control[float]:
+    """Return the mean of a few side readings; infinite if most see nothing."""
+    ranges: list[float] = []
+    while len(ranges) < looks:
+        yield
+        if robot.is_fresh:
+            ranges.append(robot.left if side is Side.LEFT else robot.right)
+    seen = [r for r in ranges if r < math.inf]
+    return sum(seen) / len(seen) if len(seen) > looks // 2 else math.inf
+
+
+def _square_up(robot: Robot, side: Side) -> Control[float]:
+    """Face the wall ahead squarely; return its distance, infinite if none is there."""
+    axis = robot.turned
+    scan: list[tuple[float, float]] = []
+    yield from spin(robot, -SWEEP)
+    goal = axis + SWEEP
+    ranger = _front_ranger(robot)
+    farthest = ranger.x + REACH * ranger.far
+    while robot.turned < goal:
+        robot.drive(0.0, 0.5 * robot.profile.turn_rate)
+        yield
+        if robot.is_fresh and (reading := robot.eyes.beam) < farthest:
+            scan.append((robot.turned - axis, reading))
+    yield from stop(robot)
+    wall = wall_of_scan(scan, _inverse_error(robot), side)
+    if wall is None:
+        yield from spin(robot, axis - robot.turned)
+        return math.inf
+    yield from spin(robot, axis + wall.normal - robot.turned)
+    robot.begin_spin()
+    robot.lean, robot.lean_variance = 0.0, wall.variance + SQUARE**2
+    robot.edge_behind = wall.behind
+    yield from settle(robot)
+    return wall.distance
+
+
+def _inverse_error(robot: Robot) -> float:
+    """Return the deviation of an inverse range ahead, in 1 / metres."""
+    ranger = _front_ranger(robot)
+    r0 = robot.parameters.r0
+    deviation = ranger.noise + ranger.noise_growth * (r0 - ranger.x) ** 2
+    return max(deviation, ROUND * r0) / (r0 * r0)
+
+
+def _front_ranger(robot: Robot) -> Ranger:
+    """Return a ranger that looks straight ahead."""
+    return next(r for r in robot.profile.rangers if looks_along(r, 0.0))
