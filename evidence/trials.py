@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Integers = NDArray[np.int64]
 
-__all__ = ["likelihood_trials", "published_trials", "wilson_interval"]
+__all__ = ["likelihood_trials", "published_trials"]
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(32)
 
@@ -301,23 +301,3 @@ def _disc(x: float, y: float, xx: float, xy: float, yy: float, radius: float) ->
 def _between(half: float, mean: float, deviation: float) -> float:
     scale = 1.0 / (deviation * math.sqrt(2.0))
     return 0.5 * (math.erf((half - mean) * scale) + math.erf((half + mean) * scale))
-
-
-def wilson_interval(hits: int, trials: int, z: float = 1.96) -> tuple[float, float]:
-    """Return the Wilson score interval of a rate, 95 % by default.
-
-    Raises
-    ------
-    ValueError
-        If there is no trial, or more hits than trials.
-    """
-    if not 0 <= hits <= trials or trials == 0:
-        raise ValueError(f"expected 0 <= hits <= trials > 0; got {hits} of {trials}")
-    rate, z2 = hits / trials, z * z
-    middle = (rate + z2 / (2 * trials)) / (1 + z2 / trials)
-    half = (
-        z
-        / (1 + z2 / trials)
-        * math.sqrt(rate * (1 - rate) / trials + z2 / (4 * trials * trials))
-    )
-    return max(0.0, middle - half), min(1.0, middle + half)
