@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +14,7 @@ from topomap.exploration.simulator import explore_grid
 from topomap.exploration.starts import central_starts
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -110,12 +110,19 @@ def bootstrap(
     Examples
     --------
     >>> rows = np.ones((5, 2))
-    >>> bootstrap(rows, lambda part: part[..., 0].mean(axis=-1), np.random.default_rng(0))
+    >>> rng = np.random.default_rng(0)
+    >>> bootstrap(rows, lambda part: part[..., 0].mean(axis=-1), rng)
     (1.0, 1.0)
     """
     picks = rng.integers(len(rows), size=(draws, len(rows)))
     low, high = np.quantile(statistic(rows[picks]), [0.025, 0.975])
     return float(low), float(high)
+
+
+def _ratio(part: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the ratio of the two columns' means, for each draw."""
+    ratio: NDArray[np.float64] = part[..., 0].mean(axis=-1) / part[..., 1].mean(axis=-1)
+    return ratio
 
 
 def tree_bound(nodes: int, depth: float, robots: int) -> float:
@@ -137,7 +144,7 @@ def compare(
     *,
     rival: str,
     seed: int = 0,
-    options: Mapping[str, object] | None = None,
+    settings: Settings | None = None,
 ) -> dict[str, Summary]:
     """Return how allocators do in one kind of world, each against a rival.
 
@@ -150,18 +157,12 @@ def compare(
     rival : str
         The allocator that the others are measured by.
     seed : int
-    options : mapping, optional
-        Further fields of `Settings`.
+    settings : Settings, optional
+        What is common to all; its allocator does not count.
     """
-    more = dict(options or {})
+    common = settings or Settings()
     runs = {
-        name: run_worlds(
-            kind,
-            robots,
-            trials,
-            Settings(allocator=name, **more),
-            seed,  # type: ignore[arg-type]
-        )
+        name: run_worlds(kind, robots, trials, replace(common, allocator=name), seed)
         for name in dict.fromkeys([rival, *names])
     }
     return {
