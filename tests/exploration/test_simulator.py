@@ -1,12 +1,16 @@
 """Runs end, see all there is, repeat themselves, and measure what they say."""
 
+import json
 import math
 
 import numpy as np
 import pytest
+import typer
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from typer.testing import CliRunner
 
+from topomap.cli.explore_grid import explore_grid as explore_command
 from topomap.errors import InputError
 from topomap.exploration import Settings, allocators, central_starts, explore_grid
 from topomap.exploration.animation import animate
@@ -232,7 +236,7 @@ FREE = np.ones((3, 3), dtype=bool)
         (lambda: tree_bound(0, 1, 1), "nodes: expected a tree"),
         (
             lambda: summarise([], [], np.random.default_rng(0)),
-            "rivals: expected 0 runs",
+            "rivals: expected 0",
         ),
     ],
 )
@@ -253,3 +257,32 @@ def test_pictures_that_cannot_be_are_refused(name, change, message, tmp_path):
     run = explore_grid(FREE, [(0, 0)])
     with pytest.raises(InputError, match=message):
         animate(run, change.pop("free", FREE), 5, tmp_path / name, **change)
+
+
+def run_command(*arguments):
+    """Run the command alone."""
+    app = typer.Typer()
+    app.command()(explore_command)
+    return CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def test_the_command_prints_one_object(tmp_path):
+    path = tmp_path / "run.gif"
+    answer = run_command(
+        "stable", "--robots", 2, "--reach", 20, "--seed", 3, "-o", path, "--json"
+    )
+    figures = json.loads(answer.output)
+    assert figures["complete"]
+    assert figures["t90"] <= figures["steps"]
+    assert len(figures["travelled"]) == 2
+    assert path.exists()
+    again = run_command("stable", "--robots", 2, "--reach", 20, "--seed", 3)
+    assert again.output.startswith(f"explored after {figures['steps']} steps")
+
+
+def test_the_command_reads_a_file_and_says_that_it_gave_up(tmp_path):
+    path = tmp_path / "a.map"
+    path.write_text("height 1\nwidth 30\nmap\n" + "." * 30 + "\n")
+    assert run_command(path, "--robots", 1, "--reach", 3).exit_code == 0
+    given_up = run_command(path, "--robots", 1, "--reach", 3, "--limit", 2)
+    assert str(given_up.exception) == "not explored after 2 steps"

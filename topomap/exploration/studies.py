@@ -41,7 +41,11 @@ class Summary:
 
 
 def run_worlds(
-    kind: str, robots: int, trials: int, settings: Settings, seed: int = 0
+    kind: str | NDArray[np.bool_],
+    robots: int,
+    trials: int,
+    settings: Settings,
+    seed: int = 0,
 ) -> list[Run]:
     """Let robots explore one world of a kind for each trial.
 
@@ -50,15 +54,17 @@ def run_worlds(
 
     Parameters
     ----------
-    kind : str
-        As `grid_world`, or ``stable``.
+    kind : str or ndarray of bool
+        As `grid_world`, or ``stable``, or one grid in which only starts differ.
     robots, trials, seed : int
     settings : Settings
     """
     runs = []
     for trial in range(trials):
         rng = np.random.default_rng([seed, trial])
-        if kind == "stable":
+        if isinstance(kind, np.ndarray):
+            free, starts = kind, central_starts(kind, robots, rng)
+        elif kind == "stable":
             free, starts = stable(2 * robots)
             starts = starts + [0, 1] * rng.integers(-1, 2, size=(robots, 1))
         else:
@@ -137,7 +143,7 @@ def tree_bound(nodes: int, depth: float, robots: int) -> float:
 
 
 def compare(
-    kind: str,
+    kind: str | NDArray[np.bool_],
     names: Sequence[str],
     robots: int,
     trials: int,
@@ -150,7 +156,8 @@ def compare(
 
     Parameters
     ----------
-    kind : str
+    kind : str or ndarray of bool
+        As in `run_worlds`.
     names : sequence of str
         Allocators.
     robots, trials : int
