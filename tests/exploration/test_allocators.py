@@ -199,7 +199,7 @@ def test_a_new_allocator_is_found_by_name():
     if name not in allocators():
 
         @register(name)
-        def last_one(costs, details):  # noqa: ARG001
+        def last_one(costs, details):
             return np.full(len(costs), costs.shape[1] - 1)
 
     assert allocate([[1, 2, 3]], name).assignment == (2,)
