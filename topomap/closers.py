@@ -16,7 +16,12 @@ if TYPE_CHECKING:
 
 __all__ = ["CLOSINGS", "make_closer"]
 
-CLOSINGS = ("likelihood", "likelihood-full-lap", "dempster-shafer", "dempster-shafer-95")
+CLOSINGS = (
+    "likelihood",
+    "likelihood-full-lap",
+    "dempster-shafer",
+    "dempster-shafer-95",
+)
 """The likelihood test, and the one that asks for a whole second lap; the published
 rule, with a gate that practically never misses (99.9 %), and with the literal one
 (95 %)."""
@@ -54,6 +59,8 @@ def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
     nearest = least_distance(parameters.r0, parameters.r_min, parameters.r_max)
     if name.startswith("likelihood"):
         full_lap = name == "likelihood-full-lap"
-        return LikelihoodCloser(error, LikelihoodRule(full_lap=full_lap, r_star=nearest))
+        return LikelihoodCloser(
+            error, LikelihoodRule(full_lap=full_lap, r_star=nearest)
+        )
     gate = 0.95 if name.endswith("95") else 0.999
     return DempsterShaferCloser(error, PublishedRule(alpha=gate, r_star=nearest))
