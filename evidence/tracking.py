@@ -40,6 +40,9 @@ ROUND_END = 0.6
 """Probability that a run of copied walls ends at the next, once it went round."""
 WINDING = 0.7
 """Probability that a boundary wound by more than a full turn winds on."""
+LAP_ODDS = 3.0
+"""How much likelier a period is once all of its walls have been met twice: what looks
+like a loop and is none is mostly a copy of some rooms, and shorter than the loop."""
 ROOT_TWO_PI = math.sqrt(2 * math.pi)
 FULL_TURN = 2 * math.pi
 
@@ -518,12 +521,15 @@ def _weigh(track: Track, n: int) -> None:
     joint = np.empty((live + 1, SCALES))
     top = -math.inf
     for c in range(live + 1):
+        odds = 0.0
         if c < live:
             around = _displacement(track, n, track.period[c])
+            if n >= 2 * track.period[c]:
+                odds = math.log(LAP_ODDS)
         for g in range(SCALES):
             if c < live:
                 gain = _closure(around, _sigma(track, g))[0]
-                joint[c, g] = track.scale[PRIOR, g] + track.weight[c, g] + gain
+                joint[c, g] = track.scale[PRIOR, g] + track.weight[c, g] + gain + odds
             else:
                 joint[c, g] = track.scale[PRIOR, g] + track.scale[EVIDENCE, g]
             top = max(top, joint[c, g])

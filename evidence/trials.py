@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     Floats = NDArray[np.float64]
     Integers = NDArray[np.int64]
 
-__all__ = ["likelihood_trials", "published_trials", "wilson_interval"]
+__all__ = ["likelihood_trials", "published_trials"]
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(32)
 
@@ -282,7 +282,9 @@ def _disc(x: float, y: float, xx: float, xy: float, yy: float, radius: float) ->
         u, v, su, sv = v, u, sv, su
     if su <= 1e-9 * radius:
         return 1.0 if math.hypot(u, v) <= radius else 0.0
-    low, high = max(-radius, u - 8 * su), min(radius, u + 8 * su)
+    if sv <= 1e-9 * radius:
+        return float(_between(math.sqrt(max(radius**2 - v * v, 0.0)), u, su))
+    low, high = max(-radius, v - 8 * sv), min(radius, v + 8 * sv)
     if low >= high:
         return 0.0
     begin, end = math.asin(low / radius), math.asin(high / radius)
@@ -290,33 +292,12 @@ def _disc(x: float, y: float, xx: float, xy: float, yy: float, radius: float) ->
     for i in range(len(NODES)):
         angle = begin + (end - begin) * (NODES[i] + 1) / 2
         at, half = radius * math.sin(angle), radius * math.cos(angle)
-        density = math.exp(-0.5 * ((at - u) / su) ** 2) / (su * math.sqrt(2 * math.pi))
-        if sv > 0:
-            scale = 1.0 / (sv * math.sqrt(2.0))
-            inside = 0.5 * (
-                math.erf((half - v) * scale) - math.erf((-half - v) * scale)
-            )
-        else:
-            inside = 1.0 if -half <= v <= half else 0.0
-        total += WEIGHTS[i] * density * inside * half
+        density = math.exp(-0.5 * ((at - v) / sv) ** 2) / (sv * math.sqrt(2 * math.pi))
+        total += WEIGHTS[i] * density * _between(half, u, su) * half
     return min(max(total * (end - begin) / 2, 0.0), 1.0)
 
 
-def wilson_interval(hits: int, trials: int, z: float = 1.96) -> tuple[float, float]:
-    """Return the Wilson score interval of a rate, 95 % by default.
-
-    Raises
-    ------
-    ValueError
-        If there is no trial, or more hits than trials.
-    """
-    if not 0 <= hits <= trials or trials == 0:
-        raise ValueError(f"expected 0 <= hits <= trials > 0; got {hits} of {trials}")
-    rate, z2 = hits / trials, z * z
-    middle = (rate + z2 / (2 * trials)) / (1 + z2 / trials)
-    half = (
-        z
-        / (1 + z2 / trials)
-        * math.sqrt(rate * (1 - rate) / trials + z2 / (4 * trials * trials))
-    )
-    return max(0.0, middle - half), min(1.0, middle + half)
+@njit(cache=True, error_model="numpy")
+def _between(half: float, mean: float, deviation: float) -> float:
+    scale = 1.0 / (deviation * math.sqrt(2.0))
+    return 0.5 * (math.erf((half - mean) * scale) + math.erf((half + mean) * scale))
