@@ -62,7 +62,9 @@ def embed_with_covariances(
 
     Parameters
     ----------
-    graph, sideways
+    graph : Graph
+        As for `embed`.
+    sideways : float, optional
         As for `embed`.
 
     Returns

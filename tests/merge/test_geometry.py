@@ -185,13 +185,13 @@ def test_ranking_is_by_vertices_then_error_then_hypotheses():
     assert rank_clusters(best[::-1]) == best
 
 
-def halves(seed, angle=0.0):
+def halves(seed, angle=0.0, sigma=0.03):
     rng = np.random.default_rng(seed)
     maze = make_maze(9, 9, rng)
     one = breadth_first(maze, 0, 30)
     two = breadth_first(maze, int(one[12]), 30)
-    a = perturb(cut(maze, one), 0.03, rng)
-    b, order = turn(perturb(cut(maze, two), 0.03, rng), angle, rng)
+    a = perturb(cut(maze, one), sigma, rng)
+    b, order = turn(perturb(cut(maze, two), sigma, rng), angle, rng)
     return a, b, one, two[order]
 
 
@@ -232,7 +232,7 @@ def test_growth_after_registration_only_adds_right_pairs(seed):
 
 
 def test_vertices_that_lie_on_each_other_and_differ_clash():
-    a, b, one, two = halves(2)
+    a, b, one, two = halves(2, sigma=0.005)
     found = match(a, b)
     few = found.pairs[:6]
     types = a.types.copy()
