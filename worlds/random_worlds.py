@@ -27,9 +27,9 @@ def _random(
     """Grow an outline, then give its lines their places in metres."""
     sizes = [corners, *(2 * rng.integers(2, island_corners // 2 + 1, islands)).tolist()]
     outline = _grown(rng, sizes)
-    lengths = passage + rng.exponential(spread, (2, outline.at.shape[1] // 2))
-    xs = _places(outline, lengths[0], 0, outline.at[1], 0.5)
-    ys = _places(outline, lengths[1], 1, xs, passage / 2)
+    more = rng.exponential(spread, (2, outline.at.shape[1] // 2))
+    xs = _places(outline, 0, passage, more[0], outline.at[1], 0.5)
+    ys = _places(outline, 1, passage, more[1], xs, passage / 2)
     points = np.stack([xs, ys])
     # Places are packed towards the origin; a random symmetry hides it.
     points = points[:: rng.choice([1, -1])]
@@ -61,16 +61,17 @@ def _grown(rng: np.random.Generator, sizes: list[int]) -> Outline:
 
 def _places(
     outline: Outline,
-    lengths: NDArray[np.float64],
     axis: int,
+    passage: float,
+    more: NDArray[np.float64],
     across: NDArray[np.float64] | NDArray[np.int64],
     reach: float,
 ) -> NDArray[np.float64]:
     """Return where each corner lies on an axis, in metres, packed towards 0.
 
-    Wall k keeps ``lengths[k]`` from every wall behind it that comes within
-    twice `reach` of it `across`: at first on the grid, then by the places of the first
-    axis. So two walls that do not join are a passage apart in x or in y.
+    Wall k keeps ``passage + more[k]`` from every wall behind it that comes within
+    twice `reach` of it `across`: at first on the grid, then by the places on the
+    first axis. So two walls that do not join are a passage apart in x or in y.
     """
     at, to = outline.at[axis], outline.at[axis, outline.next]
     walls = np.flatnonzero(at == to)
@@ -78,10 +79,11 @@ def _places(
     ends = across[walls], across[outline.next[walls]]
     low, high = np.minimum(*ends) - reach, np.maximum(*ends) + reach
     place = np.zeros(len(walls))
-    for k in range(1, len(walls)):
+    for k in range(len(walls)):
         is_behind = (low[:k] < high[k]) & (high[:k] > low[k])
-        place[k] = place[:k].max(where=is_behind, initial=-lengths[k]) + lengths[k]
-    points: NDArray[np.float64] = place[at]
+        behind = place[:k].max(where=is_behind, initial=-passage)
+        place[k] = behind + passage + more[k]
+    points: NDArray[np.float64] = (place - place.min())[at]
     return points
 
 

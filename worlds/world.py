@@ -14,6 +14,9 @@ __all__ = ["Ring", "World", "WorldError", "make_world"]
 Ring: TypeAlias = tuple[tuple[float, float], ...]
 """Corners of a closed polygon in metres, the first one not repeated at the end."""
 
+FARTHEST = 1e7
+"""No coordinate is greater, in metres, so that nothing overflows."""
+
 PARALLEL = 1e-9
 """A wall whose run across an axis is at most this part of its length is on it."""
 
@@ -93,9 +96,10 @@ def make_world(
     Raises
     ------
     WorldError
-        If a coordinate is not finite, a ring has fewer than three corners, a
-        wall has no length, a ring crosses or touches itself, or an island is
-        not inside, or meets another ring. The message names the ring.
+        If a coordinate is not finite or beyond 1e7 m, a ring has fewer than three
+        corners or no area, a wall has no length, a ring crosses or touches
+        itself, or an island is not inside, or meets another ring. The message
+        names the ring.
 
     Notes
     -----
@@ -140,8 +144,11 @@ def _ring(corners: Iterable[Sequence[float]], field: str) -> Ring:
             raise WorldError(
                 f"{field}[{k}]", f"expected two numbers [x, y]; got {corner!r}"
             ) from None
-        if not (math.isfinite(x) and math.isfinite(y)):
-            raise WorldError(f"{field}[{k}]", f"expected finite metres; got [{x}, {y}]")
+        if not (abs(x) <= FARTHEST and abs(y) <= FARTHEST):
+            raise WorldError(
+                f"{field}[{k}]",
+                f"expected finite metres, at most {FARTHEST:.0e}; got [{x}, {y}]",
+            )
         ring.append((x, y))
     if len(ring) < 3:
         raise WorldError(field, f"expected at least 3 corners; got {len(ring)}")
@@ -154,11 +161,14 @@ def _ring(corners: Iterable[Sequence[float]], field: str) -> Ring:
     polygon = shapely.Polygon(ring)
     if not polygon.is_valid:
         raise WorldError(field, shapely.is_valid_reason(polygon))
-    return tuple(
+    turned: Ring = tuple(
         ring[k]
         for k in range(len(ring))
         if abs(_bend(ring[k - 1], ring[k], ring[(k + 1) % len(ring)])) > PARALLEL
     )
+    if len(turned) < 3:
+        raise WorldError(field, "has no area")
+    return turned
 
 
 def _bend(
@@ -166,7 +176,7 @@ def _bend(
 ) -> float:
     """Return the sine of the turn from a-b to b-c, counter-clockwise positive."""
     ux, uy, vx, vy = b[0] - a[0], b[1] - a[1], c[0] - b[0], c[1] - b[1]
-    return (ux * vy - uy * vx) / (math.hypot(ux, uy) * math.hypot(vx, vy))
+    return (ux * vy - uy * vx) / math.hypot(ux, uy) / math.hypot(vx, vy)
 
 
 def _oriented(ring: Ring, sense: int) -> Ring:

@@ -189,7 +189,7 @@ def test_figure_10_1_a_row_of_robots_moves_up():
 
 
 def printed_mpg(costs, limit):
-    """Run [B] algorithm 4 as printed; return who has a frontier after `limit` rounds."""
+    """Run [B] algorithm 4 as printed, and return who has a frontier in the end."""
     n, m = costs.shape
     position = (costs[:, None, :] > costs[None, :, :]).sum(axis=1)
     robots, frontiers, pos, given = set(range(n)), set(range(m)), 0, {}

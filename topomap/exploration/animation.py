@@ -104,4 +104,5 @@ def _colours(count: int) -> NDArray[np.uint8]:
     """Return as many colours, evenly around the circle of hues."""
     turn = np.arange(count)[:, None] / count + np.array([0, 1 / 3, 2 / 3])
     wave = np.clip(np.abs(turn % 1.0 * 6 - 3) - 1, 0, 1)
-    return (30 + 200 * wave).astype(np.uint8)
+    colours: NDArray[np.uint8] = (30 + 200 * wave).astype(np.uint8)
+    return colours

@@ -70,7 +70,7 @@ def seek(
 
 @compiled
 def _estimate(
-    cell: int,
+    cell: int | np.int64,
     width: int,
     goals: NDArray[np.int64],
     waiting: NDArray[np.bool_],

@@ -71,7 +71,7 @@ class Settings:
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """What came of exploring a grid. Times are in steps (or seconds), lengths in cells."""
+    """What came of exploring a grid. Times in steps or seconds, lengths in cells."""
 
     complete: bool
     """Whether some robot's map had no frontier within reach left."""
@@ -88,4 +88,4 @@ class Run:
     seen: NDArray[np.bool_] = field(repr=False)
     """Shape (rows, columns): what was seen."""
     trace: NDArray[np.int64] = field(repr=False)
-    """Shape (times, robots, 2): the cell (row, column) of each robot, from the start."""
+    """Shape (times, robots, 2): cell (row, column) of each robot, from the start."""

@@ -48,7 +48,8 @@ def frontier_mask(explored: ArrayLike, passable: ArrayLike) -> NDArray[np.bool_]
         )
     wide = np.pad(known, 1, constant_values=True)
     beside = ~wide[:-2, 1:-1] | ~wide[2:, 1:-1] | ~wide[1:-1, :-2] | ~wide[1:-1, 2:]
-    return free & known & beside
+    mask: NDArray[np.bool_] = free & known & beside
+    return mask
 
 
 def find_frontiers(

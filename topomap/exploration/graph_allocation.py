@@ -104,6 +104,7 @@ def allocate_on_graph(
     --------
     Two robots in a corridor of nodes 0 to 9, one of them near both frontiers:
 
+    >>> import networkx as nx
     >>> corridor = nx.path_graph(10)
     >>> allocate_on_graph(corridor, [5, 8], [0, 9]).assignment
     (0, 1)
@@ -153,6 +154,7 @@ def graph_matrix(
 
     Examples
     --------
+    >>> import networkx as nx
     >>> graph_matrix(nx.path_graph(4), [1], [0, 3]).tolist()
     [[1.0, 2.0]]
     """
@@ -184,27 +186,21 @@ def _level(wave: _Wave, allocator: str, robots: int) -> int:
 def _links(graph: nx.Graph | csr_array, weight: str) -> Links:
     """Return each node's neighbours and the lengths to them, checked."""
     links: Links = {}
+    edges: list[tuple[Hashable, Hashable, float]]
     if issparse(graph):
         table = csr_array(graph)
         if table.shape[0] != table.shape[1] or abs(table - table.T).max() > 0:
             raise InputError("graph", "", table.shape, "a symmetric sparse array")
         links = {node: [] for node in range(table.shape[0])}
-        pairs = table.tocoo()
-        edges = zip(
-            *(part.tolist() for part in (*pairs.coords, pairs.data)), strict=True
-        )
+        ends = table.tocoo()
+        parts = (ends.coords[0].tolist(), ends.coords[1].tolist(), ends.data.tolist())
+        edges = list(zip(*parts, strict=True))
     else:
         if graph.is_directed():
             raise InputError("graph", "", None, "an undirected graph")
         links = {node: [] for node in graph}
-        edges = iter(
-            pair
-            for a, b, data in graph.edges(data=True)
-            for length in (data.get(weight, 1),)
-            for pair in (
-                ((a, b, length),) if a == b else ((a, b, length), (b, a, length))
-            )
-        )
+        edges = list(graph.edges(data=weight, default=1))
+        edges += [(b, a, length) for a, b, length in edges if a != b]
     for a, b, length in edges:
         if not (math.isfinite(length) and length >= 0):
             raise InputError("graph", f"edge {a!r}-{b!r}", length, "a finite length")

@@ -157,4 +157,5 @@ def _shrink(free: NDArray[np.bool_], factor: float) -> NDArray[np.bool_]:
     inside = corner[1:, 1:] - corner[:-1, 1:] - corner[1:, :-1] + corner[:-1, :-1]
     area = np.outer(np.diff(r), np.diff(c))
     closed = 8 * (area - inside) >= area
-    return ~closed
+    open_: NDArray[np.bool_] = ~closed
+    return open_

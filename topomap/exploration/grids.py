@@ -43,7 +43,8 @@ def add_evidence(
     change = np.asarray(hits, dtype=np.int16) - np.asarray(misses, dtype=np.int16)
     if change.shape != evidence.shape:
         raise InputError("hits", "", change.shape, f"a grid of shape {evidence.shape}")
-    return np.clip(evidence + change, -LIMIT, LIMIT)
+    learned: NDArray[np.int16] = np.clip(evidence + change, -LIMIT, LIMIT)
+    return learned
 
 
 @dataclass(frozen=True, slots=True)

@@ -61,8 +61,8 @@ def minmax(costs: Costs, details: Details) -> NDArray[np.int64]:  # noqa: ARG001
 
 def _places(reachable: NDArray[np.bool_]) -> int:
     """Return how many robots one frontier has to take so that all get one."""
-    robots = np.count_nonzero(reachable.any(axis=1))
-    places = max(1, -(-robots // reachable.shape[1]))
+    robots = int(np.count_nonzero(reachable.any(axis=1)))
+    places: int = max(1, -(-robots // reachable.shape[1]))
     while True:
         seats = csr_array(np.tile(reachable, places))
         matched = maximum_bipartite_matching(seats, perm_type="column")
@@ -93,5 +93,5 @@ def _least_sum(costs: Costs, places: int) -> NDArray[np.int64]:
 
 def _load(chosen: NDArray[np.int64]) -> tuple[int, int]:
     """Return how many robots got a frontier, and the sum of squares of the loads."""
-    loads = np.bincount(chosen[chosen >= 0])
-    return int(np.sum(loads)), int(np.sum(loads * loads))
+    loads = np.bincount(chosen[chosen >= 0]).tolist()
+    return sum(loads), sum(load * load for load in loads)

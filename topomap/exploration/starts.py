@@ -50,4 +50,5 @@ def central_starts(
     off = np.abs(cells - middle).max(axis=1)
     side = np.sort(off)[min(2 * robots, len(cells)) - 1]
     inside = np.flatnonzero(off <= side)
-    return cells[rng.choice(inside, robots, replace=False)].astype(np.int64)
+    drawn: NDArray[np.int64] = cells[rng.choice(inside, robots, replace=False)]
+    return drawn

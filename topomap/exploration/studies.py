@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +14,7 @@ from topomap.exploration.simulator import explore_grid
 from topomap.exploration.starts import central_starts
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from numpy.typing import NDArray
 
@@ -41,7 +41,11 @@ class Summary:
 
 
 def run_worlds(
-    kind: str, robots: int, trials: int, settings: Settings, seed: int = 0
+    kind: str | NDArray[np.bool_],
+    robots: int,
+    trials: int,
+    settings: Settings,
+    seed: int = 0,
 ) -> list[Run]:
     """Let robots explore one world of a kind for each trial.
 
@@ -50,15 +54,17 @@ def run_worlds(
 
     Parameters
     ----------
-    kind : str
-        As `grid_world`, or ``stable``.
+    kind : str or ndarray of bool
+        As `grid_world`, or ``stable``, or one grid in which only starts differ.
     robots, trials, seed : int
     settings : Settings
     """
     runs = []
     for trial in range(trials):
         rng = np.random.default_rng([seed, trial])
-        if kind == "stable":
+        if isinstance(kind, np.ndarray):
+            free, starts = kind, central_starts(kind, robots, rng)
+        elif kind == "stable":
             free, starts = stable(2 * robots)
             starts = starts + [0, 1] * rng.integers(-1, 2, size=(robots, 1))
         else:
@@ -110,12 +116,19 @@ def bootstrap(
     Examples
     --------
     >>> rows = np.ones((5, 2))
-    >>> bootstrap(rows, lambda part: part[..., 0].mean(axis=-1), np.random.default_rng(0))
+    >>> rng = np.random.default_rng(0)
+    >>> bootstrap(rows, lambda part: part[..., 0].mean(axis=-1), rng)
     (1.0, 1.0)
     """
     picks = rng.integers(len(rows), size=(draws, len(rows)))
     low, high = np.quantile(statistic(rows[picks]), [0.025, 0.975])
     return float(low), float(high)
+
+
+def _ratio(part: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the ratio of the two columns' means, for each draw."""
+    ratio: NDArray[np.float64] = part[..., 0].mean(axis=-1) / part[..., 1].mean(axis=-1)
+    return ratio
 
 
 def tree_bound(nodes: int, depth: float, robots: int) -> float:
@@ -130,38 +143,33 @@ def tree_bound(nodes: int, depth: float, robots: int) -> float:
 
 
 def compare(
-    kind: str,
+    kind: str | NDArray[np.bool_],
     names: Sequence[str],
     robots: int,
     trials: int,
     *,
     rival: str,
     seed: int = 0,
-    options: Mapping[str, object] | None = None,
+    settings: Settings | None = None,
 ) -> dict[str, Summary]:
     """Return how allocators do in one kind of world, each against a rival.
 
     Parameters
     ----------
-    kind : str
+    kind : str or ndarray of bool
+        As in `run_worlds`.
     names : sequence of str
         Allocators.
     robots, trials : int
     rival : str
         The allocator that the others are measured by.
     seed : int
-    options : mapping, optional
-        Further fields of `Settings`.
+    settings : Settings, optional
+        What is common to all; its allocator does not count.
     """
-    more = dict(options or {})
+    common = settings or Settings()
     runs = {
-        name: run_worlds(
-            kind,
-            robots,
-            trials,
-            Settings(allocator=name, **more),
-            seed,  # type: ignore[arg-type]
-        )
+        name: run_worlds(kind, robots, trials, replace(common, allocator=name), seed)
         for name in dict.fromkeys([rival, *names])
     }
     return {

@@ -94,7 +94,7 @@ def allocate_by_waves(
     >>> free = np.ones((1, 9), dtype=bool)
     >>> found = allocate_by_waves(free, [(0, 0), (0, 8)], [[(0, 1)], [(0, 7)]])
     >>> found.assignment, found.settled
-    ((0, 1), 4)
+    ((0, 1), 6)
     """
     from topomap.exploration.race_kernel import race
 
@@ -117,8 +117,9 @@ def allocate_by_waves(
     width = grid.shape[1] + 2
     starts = np.zeros(len(groups), dtype=np.int64)
     if localised:
-        alone = asking is not None and allocator in {"mindist", "minpos"}
-        minded = where[[asking]] if alone else where
+        minded = where
+        if asking is not None and allocator in {"mindist", "minpos"}:
+            minded = where[asking : asking + 1]
         starts[:] = [_least_way(group, minded, width, steps) for group in groups]
     chosen, way, _, _, settled = race(
         cells,

@@ -87,8 +87,9 @@ def distances(
     )
     inner = potential.reshape(-1, width)[1:-1, 1:-1]
     reached = (inner >= 0) & (inner < FAR)
-    if len(awaited) and (potential[awaited] < FAR).all():
-        reached &= inner <= potential[awaited].max()
+    ends = potential[awaited]
+    if len(awaited) and ((ends >= 0) & (ends < FAR)).all():
+        reached &= inner <= ends.max()
     return np.where(reached, inner / steps.straight, np.inf)
 
 
@@ -190,7 +191,9 @@ def cell_indices(
             array[k].tolist(),
             f"a cell inside {shape[0]} x {shape[1]}",
         )
-    return (array[:, 0].astype(np.int64) + 1) * (shape[1] + 2) + array[:, 1] + 1
+    places = array.astype(np.int64)
+    flat: NDArray[np.int64] = (places[:, 0] + 1) * (shape[1] + 2) + places[:, 1] + 1
+    return flat
 
 
 def _grid(free: ArrayLike) -> NDArray[np.bool_]:

@@ -22,6 +22,9 @@ _FAULT = re.compile(
 _MISSING = re.compile(
     r"Object missing required field `(?P<name>\w+)`(?: - at `\$(?P<path>.*)`)?"
 )
+_UNKNOWN = re.compile(
+    r"Object contains unknown field `(?P<name>.*)`(?: - at `\$(?P<path>.*)`)?"
+)
 _WORDS = {
     "array": "a list",
     "bool": "true or false",
@@ -89,7 +92,7 @@ def read_json(path: str | PathLike[str], form: str, version: int, layout: type[T
     for field, needed in (("format", form), ("version", version)):
         found = raw.get(field)
         if type(found) is not type(needed) or found != needed:
-            raise InputError(source, field, found, repr(needed))
+            raise InputError(source, field, _told(found), repr(needed))
     try:
         return msgspec.convert(raw, layout)
     except msgspec.ValidationError as error:
@@ -101,9 +104,14 @@ def _fault(source: str, raw: object, message: str) -> InputError:
     if missing := _MISSING.fullmatch(message):
         at = f"{missing['path'] or ''}.{missing['name']}".removeprefix(".")
         return InputError(source, at, None, "this field, which is missing")
+    if unknown := _UNKNOWN.fullmatch(message):
+        at = f"{unknown['path'] or ''}.{unknown['name']}".removeprefix(".")
+        return InputError(source, at, None, "no such field")
     fault = _FAULT.fullmatch(message)
     if fault is None:
-        return InputError(source, "", None, message)
+        said, _, at = message.partition(" - at `$")
+        path = at.rstrip("`").removeprefix(".")
+        return InputError(source, path, None, f"another value: {said}")
     path = (fault["path"] or "").removeprefix(".")
     expected = _WORDS.get(fault["type"], fault["type"])
     if fault["of"]:
@@ -115,4 +123,11 @@ def _value_at(raw: Any, path: str) -> object:
     """Return what is at a path such as ``outer[3][1]``."""
     for name, index in re.findall(r"(\w+)|\[(\d+)\]", path):
         raw = raw[name] if name else raw[int(index)]
-    return "null" if raw is None else raw
+    return "null" if raw is None else _told(raw)
+
+
+def _told(value: object) -> object:
+    """Return what an error can say of a value on its one line."""
+    if isinstance(value, list | dict):
+        return None
+    return f"{value[:40]}..." if isinstance(value, str) and len(value) > 40 else value

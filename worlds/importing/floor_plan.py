@@ -9,7 +9,7 @@ import shapely
 
 from worlds.importing.doors import door_gaps
 from worlds.importing.plan_xml import read_plan
-from worlds.importing.region import Place, region_world, thick
+from worlds.importing.region import NoRegionError, Place, region_world, thick
 from worlds.importing.squaring import slanted_share, square_up
 from worlds.world import World, WorldError
 
@@ -51,4 +51,7 @@ def import_floor_plan(
     free = shapely.union_all(rooms).difference(solid)
     gaps = door_gaps(plan.doors, walls, free, door, wall, tolerance)
     free = shapely.union_all([free, *gaps])
-    return region_world(path, free, start, tolerance, passage)
+    try:
+        return region_world(path, free, start, tolerance, passage)
+    except NoRegionError as error:
+        raise WorldError(f"{path}: start", str(error)) from None

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from worlds.importing.raster import read_picture, trace
-from worlds.importing.region import Place, region_world
+from worlds.importing.raster import read_picture, traced_world
+from worlds.importing.region import Place
 from worlds.world import World, WorldError
 
 __all__ = ["import_picture"]
@@ -39,5 +39,6 @@ def import_picture(
     shades = read_picture(path)
     rows, columns = shades.shape
     pixel = width / columns, (height or width * rows / columns) / rows
-    free = trace(shades >= 255 * dark, pixel, (0.0, 0.0))
-    return region_world(path, free, start, tolerance, passage, speck)
+    return traced_world(
+        path, shades >= 255 * dark, pixel, (0.0, 0.0), start, tolerance, passage, speck
+    )

@@ -1,4 +1,4 @@
-"""How a picture becomes free space: read it within bounds, trace its pixels."""
+"""How a picture becomes a world: read within bounds, traced, evened out."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ import numpy as np
 import shapely
 from PIL import Image, UnidentifiedImageError
 
-from worlds.world import WorldError
+from worlds.importing.region import NoRegionError, Place, region_world
+from worlds.importing.tracing import trace
+from worlds.world import World, WorldError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from shapely.geometry.base import BaseGeometry
 
-    from worlds.importing.region import Place
 
-__all__ = ["MOST_PIXELS", "read_picture", "trace"]
+__all__ = ["MOST_PIXELS", "read_picture", "traced_world"]
 
 MOST_PIXELS = 16_000_000
 """A picture with more is refused, so that memory stays within a gigabyte."""
@@ -74,33 +74,29 @@ def read_picture(path: Path) -> NDArray[np.uint8]:
             raise WorldError(f"{path}", f"is a broken picture: {error}") from None
 
 
-def trace(
-    is_free: NDArray[np.bool_], size: tuple[float, float], origin: Place
-) -> BaseGeometry:
-    """Return free pixels as polygons.
+def traced_world(
+    path: Path,
+    is_free: NDArray[np.bool_],
+    pixel: tuple[float, float],
+    origin: Place,
+    start: Place | None,
+    tolerance: float,
+    passage: float,
+    speck: float,
+) -> World:
+    """Return free pixels as a world; the options are those of the format.
 
-    Parameters
-    ----------
-    is_free : array, shape (rows, columns)
-        Row 0 is the top.
-    size : (float, float)
-        Width and height of a pixel, in metres.
-    origin : (x, y)
-        Of the lower left corner of the picture, in metres.
-
-    Returns
-    -------
-    BaseGeometry
-        Valid; pixels that only touch at a corner are not joined.
+    Raises
+    ------
+    WorldError
+        If nothing is free, or nothing around the start.
     """
-    rows, columns = is_free.shape
-    # One rectangle for each run of free pixels in a row.
-    padded = np.zeros((rows, columns + 2), dtype=np.int8)
-    padded[:, 1:-1] = is_free
-    change = np.diff(padded, axis=1)
-    top, left = np.nonzero(change == 1)
-    right = np.nonzero(change == -1)[1]
-    low = rows - 1 - top
-    xs = origin[0] + size[0] * np.stack([left, right])
-    ys = origin[1] + size[1] * np.stack([low, low + 1])
-    return shapely.union_all(shapely.box(xs[0], ys[0], xs[1], ys[1]))
+    try:
+        region = trace(is_free, pixel, origin, start)
+        islands = [
+            ring for ring in region.interiors if shapely.Polygon(ring).area >= speck
+        ]
+        region = shapely.Polygon(region.exterior, islands)
+        return region_world(path, region, start, tolerance, passage)
+    except NoRegionError as error:
+        raise WorldError(f"{path}: free space", str(error)) from None

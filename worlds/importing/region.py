@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,12 +17,15 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["Place", "region_world", "thick"]
+__all__ = ["NoRegionError", "Place", "region_world", "thick"]
 
 Place = tuple[float, float]
 
-DECIMALS = 6
+GRAIN = 1e-6
 """Coordinates are rounded to micrometres, so that walls are on their axis."""
+
+MOST_CORNERS = 10_000
+"""A region with more is refused: the search for narrow places is quadratic."""
 
 
 ROUNDS = 8
@@ -38,7 +42,6 @@ def region_world(
     start: Place | None,
     tolerance: float,
     passage: float,
-    speck: float = 0.0,
 ) -> World:
     """Return a region of free space as a world, evened out and wide enough.
 
@@ -50,33 +53,38 @@ def region_world(
         Rectilinear polygons.
     start : (x, y) or None
         The region around it is kept; the largest if None.
-    tolerance, passage, speck : float
-        Jogs of at most `tolerance` are evened out, what is narrower than `passage`
-        is closed, in metres; islands of less than `speck` square metres are left
-        out.
+    tolerance, passage : float
+        In metres. Jogs of at most `tolerance` are evened out; what is narrower
+        than `passage` is closed.
 
     Raises
     ------
-    WorldError
+    NoRegionError
         If nothing is free, or nothing around the start.
+    WorldError
+        If it is too ragged, or what is left makes no world.
     """
+    region = around(shapely.get_parts(free).tolist(), start)
+    for _ in range(ROUNDS):
+        before = region
+        region = opened(straight(region, tolerance), passage, start)
+        corners = shapely.get_num_coordinates(region)
+        if corners > MOST_CORNERS:
+            raise WorldError(
+                f"{path}: free space",
+                f"{corners} corners; expected at most {MOST_CORNERS}: try a greater "
+                "tolerance or passage",
+            )
+        region = unpinched(region, passage, start)
+        if region.equals(before):
+            break
     try:
-        region = _without_specks(around(free, start), speck)
-        region = opened(region, passage, start)
-        for _ in range(ROUNDS):
-            before = region
-            region = unpinched(straight(region, tolerance), passage)
-            region = opened(region, passage, start)
-            if region.equals(before):
-                break
         return to_world(region, path.stem)
-    except NoRegionError as error:
-        raise WorldError(f"{path}: start", str(error)) from None
     except WorldError as error:
         raise WorldError(f"{path}: {error.field}", error.fault) from None
 
 
-def around(free: BaseGeometry, start: Place | None) -> shapely.Polygon:
+def around(parts: Sequence[shapely.Polygon], start: Place | None) -> shapely.Polygon:
     """Return the part of free space around a start, or the largest without one.
 
     Raises
@@ -84,9 +92,7 @@ def around(free: BaseGeometry, start: Place | None) -> shapely.Polygon:
     NoRegionError
         If there is no free space, or none at the start.
     """
-    parts: list[shapely.Polygon] = [
-        part for part in shapely.get_parts(free) if part.area > 0
-    ]
+    parts = [part for part in parts if part.area > 0]
     if not parts:
         raise NoRegionError("no free space is left")
     if start is None:
@@ -95,14 +101,16 @@ def around(free: BaseGeometry, start: Place | None) -> shapely.Polygon:
     for part in parts:
         if part.covers(point):
             return part
-    raise NoRegionError(f"the start {start} is not in free space")
+    raise NoRegionError(f"no free space is left around the start {start}")
 
 
-def opened(free: BaseGeometry, passage: float, start: Place | None) -> shapely.Polygon:
-    """Close all that is narrower than `passage`, and keep one region.
+def opened(
+    region: shapely.Polygon, passage: float, start: Place | None
+) -> shapely.Polygon:
+    """Close all that is narrower than `passage`, and keep one part.
 
     This is the morphological opening with a square: what remains is where a
-    square of that side can go from the start, or in the largest region.
+    square of that side can go from the start, or in the largest part.
 
     Raises
     ------
@@ -110,34 +118,38 @@ def opened(free: BaseGeometry, passage: float, start: Place | None) -> shapely.P
         If nothing remains, or not the start.
     """
     if passage == 0:
-        return around(free, start)
-    core = free.difference(_rim(free, passage / 2))
+        return region
+    core = region.difference(_rim(region, passage / 2))
     parts = [
         _rounded(part.union(_rim(part, passage / 2)))
         for part in shapely.get_parts(core)
         if part.area > 0
     ]
-    return around(shapely.union_all(parts), start)
+    return around(parts, start)
 
 
-def unpinched(region: shapely.Polygon, passage: float) -> shapely.Polygon:
+def unpinched(
+    region: shapely.Polygon, passage: float, start: Place | None
+) -> shapely.Polygon:
     """Fill in where two outer corners leave less than `passage` between them.
 
     An opening leaves such a place when both its sides can be reached.
     """
-    while True:
-        gap = narrowest(to_world(region, "").rings)
-        if gap.width >= passage - 10.0**-DECIMALS:
-            return region
+    while passage:
+        gap = narrowest(_rings(region))
+        if gap.width >= passage - 10 * GRAIN:
+            break
         # The plug lies along the walls behind both corners, else it only touches.
         (x0, y0), (x1, y1) = gap.low, gap.high
         plug = shapely.box(x0, y0 - passage / 2, x1, y1 + passage / 2)
-        region = _rounded(around(region.difference(plug), None))
+        left = shapely.get_parts(region.difference(plug)).tolist()
+        region = _rounded(around(left, start))
+    return region
 
 
-def _rim(region: BaseGeometry, half: float) -> BaseGeometry:
+def _rim(region: shapely.Polygon, half: float) -> BaseGeometry:
     """Return all that is within `half` of a wall, in x and in y."""
-    rings = shapely.get_parts(shapely.get_rings(shapely.get_parts(region)))
+    rings = region.exterior, *region.interiors
     return shapely.union_all([thick(shapely.get_coordinates(r), half) for r in rings])
 
 
@@ -160,7 +172,7 @@ def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:
     """
     if tolerance == 0:
         return region
-    rings = [*to_world(region, "").rings]
+    rings = _rings(region)
     for k in range(len(rings)):
         stuck: set[Ring] = set()
         while found := jogs(rings[k], tolerance, tolerance):
@@ -170,31 +182,46 @@ def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:
                 if ring in stuck or len(ring) == len(rings[k]):
                     continue
                 trial = [*rings[:k], ring, *rings[k + 1 :]]
-                if shapely.Polygon(trial[0], trial[1:]).is_valid:
+                if _polygon(trial).is_valid:
                     rings = trial
                     break
                 stuck.add(ring)
             else:
                 break
-    return _rounded(shapely.Polygon(rings[0], rings[1:]))
+    return _rounded(_polygon(rings))
 
 
 def to_world(region: shapely.Polygon, name: str) -> World:
     """Return a region as a world; a ring that touches another is refused."""
-    rings = [_ring(ring) for ring in (region.exterior, *region.interiors)]
+    rings = _rings(region)
     return make_world(rings[0], rings[1:], name)
 
 
 def _ring(ring: shapely.LinearRing) -> Ring:
-    corners = np.round(shapely.get_coordinates(ring)[:-1], DECIMALS) + 0.0
-    is_new = (corners != np.roll(corners, 1, axis=0)).any(axis=1)
-    return tuple((float(x), float(y)) for x, y in corners[is_new])
+    """Return the corners of a rectilinear ring, and nothing along its walls."""
+    corners = np.round(shapely.get_coordinates(ring)[:-1], 6) + 0.0
+    corners = corners[(corners != np.roll(corners, 1, axis=0)).any(axis=1)]
+    is_upright = corners[:, 0] == np.roll(corners, -1, axis=0)[:, 0]
+    corners = corners[is_upright != np.roll(is_upright, 1)]
+    return tuple((x, y) for x, y in corners.tolist())
+
+
+def _rings(region: shapely.Polygon) -> list[Ring]:
+    """Return the outer ring counter-clockwise, then the islands clockwise.
+
+    Islands thinner than the grain are none.
+    """
+    turned = shapely.orient_polygons(region)
+    rings = [_ring(ring) for ring in (turned.exterior, *turned.interiors)]
+    rings = [ring for ring in rings if len(ring) >= 4]
+    if not rings:
+        raise NoRegionError("no free space is left")
+    return rings
+
+
+def _polygon(rings: Sequence[Ring]) -> shapely.Polygon:
+    return shapely.Polygon(rings[0], rings[1:])
 
 
 def _rounded(polygon: shapely.Polygon) -> shapely.Polygon:
-    return shapely.set_precision(polygon, 10.0**-DECIMALS)
-
-
-def _without_specks(region: shapely.Polygon, speck: float) -> shapely.Polygon:
-    holes = [ring for ring in region.interiors if shapely.Polygon(ring).area >= speck]
-    return shapely.Polygon(region.exterior, holes)
+    return shapely.set_precision(polygon, GRAIN)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import yaml
 
-from worlds.importing.raster import read_picture, trace
-from worlds.importing.region import Place, region_world
+from worlds.importing.raster import read_picture, traced_world
+from worlds.importing.region import Place
 from worlds.world import World, WorldError
 
 __all__ = ["import_ros_map"]
@@ -64,8 +64,10 @@ def import_ros_map(
             f"{path}: image", f"{image!r} cannot be read: {reason}"
         ) from None
     occupancy = (shades if negate else 255.0 - shades) / 255.0
-    free = trace(occupancy < threshold, (resolution, resolution), origin)
-    return region_world(path, free, start, tolerance, passage, speck)
+    pixel = resolution, resolution
+    return traced_world(
+        path, occupancy < threshold, pixel, origin, start, tolerance, passage, speck
+    )
 
 
 def _read_fields(path: Path) -> dict[str, object]:

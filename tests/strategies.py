@@ -1,0 +1,75 @@
+"""What hypothesis draws: robots, worlds, and ways to spoil a JSON value."""
+
+import json
+
+import numpy as np
+from hypothesis import strategies as st
+
+import worlds
+from behaviours.parameters import Parameters
+
+__all__ = ["parameters", "random_worlds", "rectilinear_rings", "seeds", "spoilt"]
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+@st.composite
+def parameters(draw):
+    """Draw a robot's lengths, r0 from 10 to 40 cm."""
+    r0 = draw(st.floats(0.1, 0.4))
+    return Parameters(
+        r0=r0,
+        r_min=r0 * draw(st.floats(0.2, 0.9)),
+        r_max=r0 * draw(st.floats(1.1, 2.0)),
+        r_w=r0 * draw(st.floats(0.3, 1.0)),
+    )
+
+
+@st.composite
+def random_worlds(draw, most_corners=40, most_islands=4, passage=None, spread=0.8):
+    """Draw a random rectilinear world."""
+    rng = np.random.default_rng(draw(seeds))
+    return worlds.make(
+        "random",
+        rng,
+        corners=2 * draw(st.integers(2, most_corners // 2)),
+        islands=draw(st.integers(0, most_islands)),
+        passage=draw(st.floats(0.05, 2.0)) if passage is None else passage,
+        spread=spread,
+    )
+
+
+@st.composite
+def rectilinear_rings(draw, most_corners=30):
+    """Draw an outer ring with walls from 5 cm up, among them ill-defined jogs."""
+    return draw(random_worlds(most_corners, 0, passage=0.05, spread=0.5)).outer
+
+
+@st.composite
+def spoilt(draw, text):
+    """Draw what is left of a valid JSON text after something has gone wrong."""
+    if draw(st.booleans()):
+        cut = draw(st.integers(0, len(text) - 1))
+        junk = draw(st.binary(max_size=4))
+        return (
+            text[:cut].encode() + junk + text[cut + draw(st.integers(0, 9)) :].encode()
+        )
+    value = json.loads(text)
+    here, key = value, draw(st.sampled_from(sorted(value)))
+    while isinstance(here[key], list | dict) and here[key] and draw(st.booleans()):
+        here = here[key]
+        keys = sorted(here) if isinstance(here, dict) else range(len(here))
+        key = draw(st.sampled_from(list(keys)))
+    if draw(st.booleans()):
+        del here[key]
+    else:
+        here[key] = draw(
+            st.none()
+            | st.booleans()
+            | st.integers(-(10**30), 10**30)
+            | st.floats()
+            | st.text(max_size=3)
+            | st.lists(st.floats(), max_size=3)
+            | st.dictionaries(st.text(max_size=3), st.integers(), max_size=2)
+        )
+    return json.dumps(value).encode()
