@@ -234,6 +234,29 @@ def test_bad_options_are_refused(field, value, message):
         LikelihoodRule(**{field: value})
 
 
+def test_any_number_of_kinds_of_corner_is_borne():
+    closer = LikelihoodCloser(RelativeError(0.1))
+    closer.begin("0", QUARTER)
+    for _ in range(4):
+        for i in range(40):
+            turn = 2 * math.pi / 40 * (1 + 0.5 * math.cos(i))
+            decision = closer.observe(Wall(1.0 + i % 7, str(i), turn))
+    assert decision.period is None or decision.period == 40
+    assert len(set(closer._symbols.values())) == 16
+
+
+@pytest.mark.parametrize(
+    ("symbols", "turns", "message"),
+    [
+        (np.full((1, 3), 16), np.ones((1, 2)), "symbols must be in 0 to 15; got 16 to"),
+        (np.zeros((1, 2), int), np.ones((1, 2)), r"shapes .*; got \(1, 2\), \(1, 2\)"),
+    ],
+)
+def test_bad_rows_are_refused(symbols, turns, message):
+    with pytest.raises(ValueError, match=message):
+        likelihood_trials(np.ones((1, 2)), symbols, turns, 0.1, LikelihoodRule())
+
+
 def test_walls_before_the_beginning_are_refused():
     with pytest.raises(ValueError, match="begin must be called before observe"):
         LikelihoodCloser(RelativeError(0.1)).observe(Wall(1.0, "INT", QUARTER))
