@@ -16,7 +16,7 @@ from numba import njit
 
 from evidence.dempster_shafer import PublishedRule, Readings
 from evidence.phi import Freedom, Variance
-from evidence.tracking import Track, new_track, restart, step
+from evidence.tracking import KINDS, Track, new_track, restart, step
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -61,7 +61,13 @@ def likelihood_trials(
         After how many walls it was accepted.
     errors : ndarray, shape (T,)
         Stated error probability then.
+
+    Raises
+    ------
+    ValueError
+        If a symbol is out of range, or the shapes do not belong together.
     """
+    _check(lengths, symbols, turns)
     track = new_track(lengths.shape[1], rule.row(sigma), rule.log_prior())
     count = len(lengths)
     periods = np.zeros(count, dtype=np.int64)
@@ -101,6 +107,7 @@ def published_trials(
 
     The distinctiveness discount is not offered here.
     """
+    _check(lengths, symbols, turns)
     if rule.distinctive:
         raise ValueError("distinctive must be False: the loop does not discount")
     count = len(lengths)
@@ -117,6 +124,20 @@ def published_trials(
     )
     _published_loop(lengths, symbols, turns, options, periods, walls)
     return periods, walls
+
+
+def _check(lengths: Floats, symbols: Integers, turns: Floats) -> None:
+    rows, walls = lengths.shape
+    if symbols.shape != (rows, walls + 1) or turns.shape != (rows, walls):
+        raise ValueError(
+            "lengths, symbols, turns must have the shapes (T, W), (T, W + 1), (T, W); "
+            f"got {lengths.shape}, {symbols.shape}, {turns.shape}"
+        )
+    if symbols.size and not (symbols.min() >= 0 and symbols.max() < KINDS):
+        raise ValueError(
+            f"symbols must be in 0 to {KINDS - 1}; "
+            f"got {symbols.min()} to {symbols.max()}"
+        )
 
 
 @njit(cache=True, error_model="numpy")

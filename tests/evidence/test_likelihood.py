@@ -139,6 +139,24 @@ def test_what_was_accepted_is_taken_back_when_refuted():
     assert decision.period is None
 
 
+def test_lengths_alone_can_take_it_back():
+    rng = np.random.default_rng(3)
+    lengths, turns = CLASSES["medium"](rng)
+    closer = LikelihoodCloser(RelativeError(0.05))
+    decisions = walked(closer, np.tile(lengths, 2), np.tile(turns, 2))
+    assert decisions[-1].period == 20
+    for i in range(20):
+        kind = "INT" if turns[i] > 0 else "EXT"
+        wall = Wall(lengths[i] * (3, 0.3)[i % 2], kind, turns[i] * QUARTER)
+        decision = closer.observe(wall)
+        if decision.period is None:
+            break
+    # Given up while it lives, since the open loop has become likelier.
+    assert decision.period is None
+    assert decision.hypotheses[0].period == 20
+    assert decision.hypotheses[0].correct < 0.5
+
+
 def test_undecided_walks_say_so_and_why():
     decisions = walked(LikelihoodCloser(RelativeError(0.1)), [4, 3, 4, 3], [1] * 4)
     assert decisions[0].reason == "after 1 walls no vertex can be the start"
@@ -156,19 +174,21 @@ def test_walks_may_be_longer_than_the_room_first_made():
     assert decisions[-1].period == 6
 
 
-def test_shifts_count_on_the_way_round():
-    # The last wall is followed over a step: half a metre to the left.
-    walls = [(4.0, 0.0), (3.0, 0.0), (4.0, 0.0), (2.5, 0.0)]
-    straight, stepped = [], []
-    for shift, found in ((0.0, straight), (0.5, stepped)):
+@pytest.mark.parametrize(
+    # Where the robot heads north, left is west; where west, south.
+    ("lengths", "shifted"),
+    [([4.5, 3.0, 4.0, 3.0], 1), ([4.0, 3.0, 4.0, 2.5], 2)],
+)
+def test_shifts_count_on_the_way_round(lengths, shifted):
+    found = []
+    for shift in (0.0, 0.5):
         closer = LikelihoodCloser(RelativeError(0.0))
         closer.begin("INT", QUARTER)
-        for i, (length, _) in enumerate(walls):
-            side = shift if i == 2 else 0.0
-            found.append(closer.observe(Wall(length, "INT", QUARTER, side)))
-    assert straight[-1].period is None
-    # Heading west, left is south: the third wall ends half a metre lower.
-    assert stepped[-1].period == 4
+        for i, length in enumerate(lengths):
+            side = shift if i == shifted else 0.0
+            decision = closer.observe(Wall(length, "INT", QUARTER, side))
+        found.append(decision.period)
+    assert found == [None, 4]
 
 
 def log_marginal(readings, sigma):
@@ -212,6 +232,29 @@ def test_marginal_of_readings_is_the_integral(factors, sigma, scale):
 def test_bad_options_are_refused(field, value, message):
     with pytest.raises(ValueError, match=message):
         LikelihoodRule(**{field: value})
+
+
+def test_any_number_of_kinds_of_corner_is_borne():
+    closer = LikelihoodCloser(RelativeError(0.1))
+    closer.begin("0", QUARTER)
+    for _ in range(4):
+        for i in range(40):
+            turn = 2 * math.pi / 40 * (1 + 0.5 * math.cos(i))
+            decision = closer.observe(Wall(1.0 + i % 7, str(i), turn))
+    assert decision.period is None or decision.period == 40
+    assert len(set(closer._symbols.values())) == 16
+
+
+@pytest.mark.parametrize(
+    ("symbols", "turns", "message"),
+    [
+        (np.full((1, 3), 16), np.ones((1, 2)), "symbols must be in 0 to 15; got 16 to"),
+        (np.zeros((1, 2), int), np.ones((1, 2)), r"shapes .*; got \(1, 2\), \(1, 2\)"),
+    ],
+)
+def test_bad_rows_are_refused(symbols, turns, message):
+    with pytest.raises(ValueError, match=message):
+        likelihood_trials(np.ones((1, 2)), symbols, turns, 0.1, LikelihoodRule())
 
 
 def test_walls_before_the_beginning_are_refused():
