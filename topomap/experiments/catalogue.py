@@ -15,6 +15,7 @@ __all__ = ["catalogue", "find"]
 
 MODULES = (
     "topomap.experiments.closing",
+    "topomap.experiments.exploring",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
 )

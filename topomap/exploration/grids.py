@@ -117,7 +117,7 @@ def make_maps(
     if not 1 <= enough <= factor**2:
         raise InputError("votes", "", enough, f"a number from 1 to {factor**2}")
     obstacle = _count(grid > 0, factor) >= enough
-    empty = ~obstacle & (_count(grid < 0, factor) >= enough)
+    empty = _count(grid < 0, factor) >= enough
     blocked = binary_dilation(obstacle, disk(math.ceil(radius)))
     return Maps(obstacle, obstacle | empty, empty & ~blocked)
 
