@@ -14,7 +14,8 @@ __all__ = ["follow"]
 BEHIND = 1 / 3
 """How far behind the start remembered readings still count, in parts of r0."""
 START = 1 / 6
-"""A change less than this past the start is the wall's beginning, in parts of r0."""
+"""A change less than this past the start of the run, or past the place where the
+wall was taken up, is the wall's beginning, in parts of r0."""
 STRAIGHT = 0.1
 """So far the robot goes straight on before it steers by the wall, in parts of r0."""
 CLOSEST = 0.1
@@ -85,12 +86,16 @@ class _Run:
         self._settle_start()
 
     def _settle_start(self) -> None:
-        """Forget a change at the very start if there is a wall beside after it."""
-        change = self.track.change
+        """Forget a change at the very start if there is a wall beside after it.
+
+        A spot of light that is not wholly on the wall yet shows it too far away.
+        """
+        track, change = self.track, self.track.change
         beside = self.own(self.robot.left, self.robot.right)
+        begun = max(self.start, track.taken_up + track.mount)
         if (
             change is not None
-            and change.place < self.start + START * self._r0
+            and change.place < begun + START * self._r0
             and beside <= self.track.reach
         ):
             self.track = self._new_track()

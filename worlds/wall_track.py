@@ -68,6 +68,8 @@ class WallTrack:
         self._least = 0.1 * parameters.r0
         self._pdd = self._pdq = 0.0
         self._odometer = self._turned = 0.0
+        self.taken_up = math.inf
+        """What the odometer showed when the wall was found, in metres."""
         self._misfits: list[tuple[float, float]] = []
         self._seeds: list[float] = []
         self.reach = parameters.r_max + self._least
@@ -111,6 +113,7 @@ class WallTrack:
             and mean <= self.reach
             and spread <= self._tolerance(mean)
         ):
+            self.taken_up = self._odometer
             self.distance = mean - self.mount * self.lean
             self._pdd = self._variance(mean) / SEED
             self._pdd += self.mount**2 * self.lean_variance
