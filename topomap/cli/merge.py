@@ -120,7 +120,7 @@ def _mapper(workers: int, scheduler: str | None) -> Iterator[Mapper]:
             raise InputError(
                 "merge", "--scheduler", scheduler, "Dask to be installed"
             ) from None
-        with Client(scheduler) as client:  # type: ignore[no-untyped-call]
+        with Client(scheduler) as client:
             yield lambda *given: client.gather(client.map(*given, batch_size=20))
     elif workers > 1:
         from concurrent.futures import ProcessPoolExecutor
