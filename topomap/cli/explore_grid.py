@@ -31,7 +31,7 @@ def explore_grid(
         float | None, typer.Option(help="Cells of a file that make one cell.")
     ] = None,
     limit: Annotated[int, typer.Option(help="Give up after so many steps.")] = 20_000,
-    seed: Annotated[int, typer.Option(help="Seed of all that is drawn.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is drawn.")] = 0,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Moving picture, .gif.")
     ] = None,
