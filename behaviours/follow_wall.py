@@ -43,8 +43,10 @@ References
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum, auto
+from functools import cache
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
@@ -115,7 +117,8 @@ class Leg:
     """Least range on the left on the way, in metres; `inf` if nothing was seen."""
 
 
-def actions(parameters: Parameters) -> dict[State, Primitive]:
+@cache
+def actions(parameters: Parameters) -> Mapping[State, Primitive]:
     """Return what the robot does in each state."""
     past = Move(parameters.r0, keep=parameters.r0)
     return {

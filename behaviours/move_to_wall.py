@@ -35,7 +35,9 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import Enum, auto
+from functools import cache
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
@@ -116,7 +118,8 @@ MOVE_TO_WALL = Automaton((State.AF,), (
 # fmt: on
 
 
-def actions(parameters: Parameters) -> dict[State, Primitive]:
+@cache
+def actions(parameters: Parameters) -> Mapping[State, Primitive]:
     """Return what the robot does in each state."""
     r0, r_min, r_max = parameters.r0, parameters.r_min, parameters.r_max
     right = (Sensor.RIGHT,)
