@@ -23,7 +23,7 @@ _MISSING = re.compile(
     r"Object missing required field `(?P<name>\w+)`(?: - at `\$(?P<path>.*)`)?"
 )
 _UNKNOWN = re.compile(
-    r"Object contains unknown field `(?P<name>.*)`(?: - at `\$(?P<path>.*)`)?"
+    r"Object contains unknown field `(?P<name>.*?)`(?: - at `\$(?P<path>.*)`)?"
 )
 _WORDS = {
     "array": "a list",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -136,15 +137,29 @@ def unpinched(
     An opening leaves such a place when both its sides can be reached.
     """
     while passage:
-        gap = narrowest(_rings(region))
-        if gap.width >= passage - 10 * GRAIN:
-            break
+        rings = _rings(region)
+        if touch := _touch(rings):
+            low = high = touch
+        else:
+            gap = narrowest(rings)
+            if gap.width >= passage - 10 * GRAIN:
+                break
+            low, high = gap.low, gap.high
         # The plug lies along the walls behind both corners, else it only touches.
-        (x0, y0), (x1, y1) = gap.low, gap.high
-        plug = shapely.box(x0, y0 - passage / 2, x1, y1 + passage / 2)
+        half = passage / 2
+        wide = half if touch else 0.0
+        plug = shapely.box(low[0] - wide, low[1] - half, high[0] + wide, high[1] + half)
         left = shapely.get_parts(region.difference(plug)).tolist()
         region = _rounded(around(left, start))
     return region
+
+
+def _touch(rings: Sequence[Ring]) -> Place | None:
+    """Return a corner that two rings share, or one ring has twice."""
+    corners = [corner for ring in rings for corner in ring]
+    if len(set(corners)) == len(corners):
+        return None
+    return Counter(corners).most_common(1)[0][0]
 
 
 def _rim(region: shapely.Polygon, half: float) -> BaseGeometry:
@@ -182,7 +197,7 @@ def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:
                 if ring in stuck or len(ring) == len(rings[k]):
                     continue
                 trial = [*rings[:k], ring, *rings[k + 1 :]]
-                if _polygon(trial).is_valid:
+                if _polygon(trial).is_valid and _touch(trial) is None:
                     rings = trial
                     break
                 stuck.add(ring)
