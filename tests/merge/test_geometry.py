@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from merge.clustering import (
@@ -27,6 +27,7 @@ metres = st.floats(-50, 50)
 transforms = st.builds(RigidTransform, angles, metres, metres)
 
 
+@settings(deadline=None)  # The first call loads libraries.
 @given(transforms, st.integers(0, 1000), st.integers(2, 20))
 def test_registration_recovers_the_transform_that_was_applied(move, seed, size):
     rng = np.random.default_rng(seed)
@@ -38,6 +39,7 @@ def test_registration_recovers_the_transform_that_was_applied(move, seed, size):
     np.testing.assert_allclose(RigidTransform(*fast)(points), move(points), atol=1e-6)
 
 
+@settings(deadline=None)  # The first call loads libraries.
 @given(st.integers(0, 1000))
 def test_registration_is_the_singular_value_solution(seed):
     rng = np.random.default_rng(seed)
@@ -51,6 +53,7 @@ def test_registration_is_the_singular_value_solution(seed):
     )
 
 
+@settings(deadline=None)  # The first call loads libraries.
 @given(transforms, transforms)
 def test_transforms_compose_and_invert(one, other):
     points = np.array([(0.0, 1.0), (2.0, -3.0)])
@@ -157,6 +160,7 @@ def naive_clusters(moves, points, reach):
     return {frozenset(group) for group in groups}
 
 
+@settings(deadline=None)  # The first call loads libraries.
 @given(st.integers(0, 10_000), st.integers(1, 14))
 def test_clusters_are_those_of_the_printed_steps(seed, size):
     rng = np.random.default_rng(seed)

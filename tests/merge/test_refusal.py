@@ -7,9 +7,11 @@ import pytest
 
 from merge.chance import false_merge_probability
 from merge.graph import Graph
+from merge.layout import lay_out
 from merge.makers import cut, make_maze, perturb, turn
 from merge.options import Options
 from merge.pairwise import match
+from merge.repeats import find_repeats
 
 E, N, W, S = 0.0, math.pi / 2, math.pi, 3 * math.pi / 2
 BACK = {E: W, N: S, W: E, S: N}
@@ -198,3 +200,21 @@ def test_probability_falls_with_the_score_and_grows_with_rivals_and_trials():
 def test_options_out_of_range(name, value, message):
     with pytest.raises(ValueError, match=message):
         Options(**{name: value})
+
+
+def flags(graph, vertices):
+    return find_repeats(graph, lay_out(graph), np.array(vertices), Options())
+
+
+def test_parts_repeated_in_large_are_found_and_unequal_ones_are_not():
+    rng = np.random.default_rng(2)
+    equal = perturb(corridor(1, 7), 0.01, rng)
+    assert flags(equal, range(len(equal) - 6)).mean() > 0.5
+    unequal = perturb(make_maze(6, 6, rng), 0.01, rng)
+    assert not flags(unequal, range(len(unequal))).any()
+
+
+def test_half_a_symmetric_building_is_the_other_half_again():
+    whole = perturb(rotunda(), 0.01, np.random.default_rng(0))
+    half = len(whole) // 2
+    assert flags(whole, range(half)).all()
