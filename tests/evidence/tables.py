@@ -21,7 +21,6 @@ from evidence.trials import likelihood_trials, published_trials
 from tests.evidence.shapes import CLASSES
 from topomap.experiments.wilson import wilson_interval
 
-
 READINGS = {
     "default: newest and previous, model's variance, n degrees, gate 99.9 %": {},
     "literal gate of 95 %": {"alpha": 0.95},
