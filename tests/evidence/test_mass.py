@@ -4,7 +4,7 @@ import math
 from functools import reduce
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from pyds import MassFunction as Oracle
 
@@ -42,12 +42,14 @@ def compatible(*given_sources):
     return conflict(*given_sources) < 1 - 1e-6
 
 
+@settings(deadline=None)
 @given(sources(), sources())
 def test_combination_is_commutative(a, b):
     assume(compatible(a, b))
     assert close(combine(a, b), combine(b, a))
 
 
+@settings(deadline=None)
 @given(sources(), sources(), sources())
 def test_combination_is_associative(a, b, c):
     assume(compatible(a, b) and compatible(b, c) and compatible(a, b, c))
@@ -55,12 +57,14 @@ def test_combination_is_associative(a, b, c):
     assert close(combine(a, b, c), combine(combine(a, b), c))
 
 
+@settings(deadline=None)
 @given(sources())
 def test_ignorance_changes_nothing(a):
     assert close(combine(a, MassFunction.vacuous(FRAME)), a)
     assert conflict(a, MassFunction.vacuous(FRAME)) == pytest.approx(0, abs=1e-12)
 
 
+@settings(deadline=None)
 @given(sources(), st.sampled_from(SUBSETS))
 def test_belief_is_below_probability_and_that_below_plausibility(a, subset):
     probability = math.fsum(pignistic(a)[name] for name in subset)
@@ -70,12 +74,14 @@ def test_belief_is_below_probability_and_that_below_plausibility(a, subset):
     assert plausibility(a, subset) == pytest.approx(1 - belief(a, rest))
 
 
+@settings(deadline=None)
 @given(sources())
 def test_pignistic_probabilities_sum_to_one(a):
     assert math.fsum(pignistic(a).values()) == pytest.approx(1)
     assert math.fsum(mass for _, mass in a.masses) == pytest.approx(1)
 
 
+@settings(deadline=None)
 @given(st.lists(sources(), min_size=1, max_size=4))
 def test_agrees_with_an_independent_implementation(many):
     assume(compatible(*many))
@@ -89,6 +95,7 @@ def test_agrees_with_an_independent_implementation(many):
         assert probability == pytest.approx(shared[{name}], abs=1e-9)
 
 
+@settings(deadline=None)
 @given(sources(), sources())
 def test_conflict_is_that_of_an_independent_implementation(a, b):
     one, other = (Oracle({m.names(k): v for k, v in m.masses}) for m in (a, b))
@@ -96,6 +103,7 @@ def test_conflict_is_that_of_an_independent_implementation(a, b):
     assert conflict(a, b) == pytest.approx(apart, abs=1e-9)
 
 
+@settings(deadline=None)
 @given(sources(), st.floats(0, 1))
 def test_discount_moves_mass_to_ignorance(a, rate):
     less = discount(a, rate)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import stats
 
@@ -22,6 +22,7 @@ lengths = st.lists(st.floats(0.5, 20), min_size=2, max_size=6)
 sigmas = st.floats(0.01, 0.3)
 
 
+@settings(deadline=None)
 @given(st.floats(0, 200), st.integers(1, 12))
 def test_tail_is_that_of_scipy(value, freedom):
     assert chi_squared_tail(value, freedom) == pytest.approx(
@@ -29,12 +30,14 @@ def test_tail_is_that_of_scipy(value, freedom):
     )
 
 
+@settings(deadline=None)
 @given(lengths, sigmas)
 def test_equal_lengths_agree_wholly_and_agreement_is_a_probability(values, sigma):
     assert agreement([values[0]] * 3, sigma) == 1.0
     assert 0 <= agreement(values, sigma) <= 1
 
 
+@settings(deadline=None)
 @given(lengths, sigmas, st.floats(0.1, 10))
 def test_agreement_has_no_unit(values, sigma, scale):
     scaled = [scale * value for value in values]
@@ -69,6 +72,7 @@ def test_one_length_is_refused():
         agreement([1.0], 0.1)
 
 
+@settings(deadline=None)
 @given(st.floats(0.5, 20), st.floats(0.5, 20), st.floats(0.02, 0.3))
 def test_plane_is_the_line_where_nothing_leads_across(a, b, sigma):
     wide = 1.0
@@ -92,6 +96,7 @@ def test_plane_fuses_as_the_source_prints_it():
     assert agreement_in_plane(steps, c, at_fused) == pytest.approx(math.exp(-m2 / 2))
 
 
+@settings(deadline=None)
 @given(st.floats(0, 1))
 def test_information_is_one_less_entropy(phi):
     entropy = stats.entropy([phi, 1 - phi], base=2)

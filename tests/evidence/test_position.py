@@ -12,7 +12,7 @@ from scipy import stats
 from evidence.position import Position, least_distance, mass_in_disc, walk
 
 
-@settings(max_examples=30)
+@settings(max_examples=30, deadline=None)
 @given(
     st.floats(-1, 1), st.floats(-1, 1), st.floats(0.03, 2), st.floats(0.03, 2),
     st.floats(-0.9, 0.9),
