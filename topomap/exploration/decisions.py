@@ -108,7 +108,7 @@ def _by_waves(
         frontiers.cells,
         frontiers.first,
         robots,
-        np.zeros(len(frontiers), dtype=np.int64),
+        True,
         ORDERS.index(allocator),
         -1,
         STEPS,

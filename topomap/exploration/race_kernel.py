@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from topomap.exploration.compiled import compiled
+from topomap.exploration.queue_kernel import bound, earliest, foremost
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -28,7 +29,7 @@ def race(
     sources: NDArray[np.int64],
     first: NDArray[np.int64],
     robots: NDArray[np.int64],
-    starts: NDArray[np.int64],
+    localised: bool,
     order: int,
     asking: int,
     steps: tuple[int, int],
@@ -38,9 +39,10 @@ def race(
 ]:
     """Run the waves until the asking robot (-1: every robot) has a frontier.
 
-    Wave j starts from ``sources[first[j]:first[j + 1]]``, not before potential
-    ``starts[j]``. `potential`, shape (waves, cells), is zero before and after;
-    meanwhile it holds potentials plus one.
+    Wave j starts from ``sources[first[j]:first[j + 1]]``. If localised, a wave is
+    put back to where it could meet a robot that still counts. `potential`, shape
+    (waves, cells), is zero before and after; meanwhile it holds potentials plus
+    one.
 
     Returns, per robot, its frontier or -1, the length of its way, and the next
     cell on it; per wave the number of robots met; the number of cells settled.
@@ -50,7 +52,13 @@ def race(
     way = np.zeros(len(robots), dtype=np.int64)
     onwards = robots.copy()
     # A wave's place in the queue: (level, key, robot), and what it has met.
-    level, key = np.zeros(waves, dtype=np.int64), starts.copy()
+    bounds = np.zeros((waves, len(robots)), dtype=np.int64)
+    if localised:
+        bound(sources, first, robots, width, steps, bounds)
+    only = asking if order in (MINDIST, MINPOS) else -1
+    level, key = np.zeros(waves, dtype=np.int64), np.zeros(waves, dtype=np.int64)
+    for j in range(waves):
+        key[j] = earliest(bounds[j], chosen, only)
     robot = np.full(waves, ADVANCE)
     alive = np.ones(waves, dtype=np.bool_)
     given, rank = np.zeros(waves, dtype=np.int64), np.zeros(waves, dtype=np.int64)
@@ -62,7 +70,7 @@ def race(
     arena = np.empty((1024, 3), dtype=np.int32)  # cell, next in its bucket, wave
     used, settled, remaining = 0, 0, len(robots)
     while remaining > 0:
-        j = _foremost(alive, level, key, robot)
+        j = foremost(alive, level, key, robot)
         if j < 0:
             break
         if robot[j] >= 0:
@@ -93,7 +101,8 @@ def race(
         if rank[j] < met_count[j]:
             robot[j], key[j] = met[j, rank[j]], met_at[j, rank[j]]
         else:
-            robot[j], key[j] = ADVANCE, floor[j]
+            robot[j] = ADVANCE
+            key[j] = max(floor[j], earliest(bounds[j], chosen, only))
             alive[j] = heads[j, 0] >= 0 or heads[j, 1] >= 0 or heads[j, 2] >= 0
         if order == GREEDY:
             level[j] = given[j]
@@ -104,31 +113,6 @@ def race(
     for node in range(used):
         potential[arena[node, 2], arena[node, 0]] = 0
     return chosen, way, onwards, rank, settled
-
-
-@compiled
-def _foremost(
-    alive: NDArray[np.bool_],
-    level: NDArray[np.int64],
-    key: NDArray[np.int64],
-    robot: NDArray[np.int64],
-) -> int:
-    """Return the wave of least (level, key, robot, number), or -1."""
-    best = -1
-    for j in range(len(alive)):
-        if not alive[j]:
-            continue
-        if best >= 0:
-            if level[j] != level[best]:
-                if level[j] > level[best]:
-                    continue
-            elif key[j] != key[best]:
-                if key[j] > key[best]:
-                    continue
-            elif robot[j] >= robot[best]:
-                continue
-        best = j
-    return best
 
 
 @compiled

@@ -14,7 +14,7 @@ from topomap.exploration.waves import cell_indices, padded
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike
 
 __all__ = ["ORDERS", "WaveAllocation", "allocate_by_waves"]
 
@@ -68,9 +68,10 @@ def allocate_by_waves(
         Stop when this robot has its frontier, as a robot does that decides for
         itself. By default all robots get theirs.
     localised : bool
-        Start each wave only when it could meet a robot that counts, by the
-        length of the way without obstacles ([B]_ section 6.2.2, there with the
-        Euclidean length).
+        Let each wave run only when it could meet a robot that counts, by the
+        length of the way without obstacles. [B]_ section 6.2.2 does so for the
+        start of a wave, by the Euclidean length and for the asking robot; here it
+        holds for every step, so a wave also rests while all near it have theirs.
     steps : Steps
 
     Returns
@@ -115,19 +116,13 @@ def allocate_by_waves(
     cells = padded(grid).astype(np.uint8).ravel()
     cells[where] *= 2  # a robot inside an obstacle is met by no wave
     width = grid.shape[1] + 2
-    starts = np.zeros(len(groups), dtype=np.int64)
-    if localised:
-        minded = where
-        if asking is not None and allocator in {"mindist", "minpos"}:
-            minded = where[asking : asking + 1]
-        starts[:] = [_least_way(group, minded, width, steps) for group in groups]
     chosen, way, _, _, settled = race(
         cells,
         width,
         np.concatenate([*groups, np.zeros(0, dtype=np.int64)]),
         np.cumsum([0, *map(len, groups)]),
         where,
-        starts,
+        localised,
         ORDERS.index(allocator),
         -1 if asking is None else asking,
         (steps.straight, steps.diagonal),
@@ -141,15 +136,3 @@ def allocate_by_waves(
         ),
         settled,
     )
-
-
-def _least_way(
-    group: NDArray[np.int64], robots: NDArray[np.int64], width: int, steps: Steps
-) -> int:
-    """Return the length of the shortest way without obstacles to any robot."""
-    if not len(group):
-        return 0
-    across = np.abs(group[:, None] % width - robots % width)
-    down = np.abs(group[:, None] // width - robots // width)
-    short, long = np.minimum(across, down), np.maximum(across, down)
-    return int(((long - short) * steps.straight + short * steps.diagonal).min())
