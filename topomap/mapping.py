@@ -121,7 +121,7 @@ def build_map(
     WorldError
         If the world is not rectilinear, too narrow, or the start is not free.
     JobError
-        If the robot is stuck, bumps, or loses its wall.
+        If the robot is stuck or loses its wall.
 
     Notes
     -----

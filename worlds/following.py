@@ -90,16 +90,19 @@ class _Run:
 
         A spot of light that is not wholly on the wall yet shows it too far away.
         """
-        track, change = self.track, self.track.change
+        change = self.track.change
         beside = self.own(self.robot.left, self.robot.right)
-        begun = max(self.start, track.taken_up + track.mount)
         if (
             change is not None
-            and change.place < begun + START * self._r0
+            and change.place < self._begun() + START * self._r0
             and beside <= self.track.reach
         ):
             self.track = self._new_track()
-            self._replay([row for row in self.robot.trace if row[0] >= change.began])
+            self._replay([row for row in self.robot.trace if row[0] >= change.settled])
+
+    def _begun(self) -> float:
+        """Return what the odometer showed abeam of where the wall was taken up."""
+        return max(self.start, self.track.taken_up + self.track.mount)
 
     def _new_track(self) -> WallTrack:
         robot = self.robot
@@ -170,7 +173,7 @@ class _Run:
         robot, track = self.robot, self.track
         lean = self._sense * robot.lean
         wish = 0.0
-        if track.is_on_wall and robot.odometer - self.start > STRAIGHT * self._r0:
+        if track.is_on_wall and robot.odometer - self._begun() > STRAIGHT * self._r0:
             offset = track.distance / self._r0 - 1.0
             wish = -min(max(offset, -0.2), 0.2)
         robot.drive(speed, self._sense * min(max(4.0 * (wish - lean), -1.0), 1.0))

@@ -37,6 +37,8 @@ class Change:
     """Distance of what follows, in metres from the centre; may be infinite."""
     began: float
     """What the odometer showed when the readings first told of it, in metres."""
+    settled: float
+    """What it showed when they began to agree on what follows, in metres."""
 
 
 class WallTrack:
@@ -165,7 +167,8 @@ class WallTrack:
             is_dark = last[-1] == math.inf or last[-1] - last[-2] > 2 * self._least
             began = misfits[0][0]
             place = began + self.mount + (-spot if is_dark else spot)
-            self.change = Change(reason, place, found, began)
+            settled = misfits[-min(len(last), CONFIRM)][0]
+            self.change = Change(reason, place, found, began, settled)
 
     def _tolerance(self, reading: float) -> float:
         """Return by how much readings of one wall may differ, in metres."""
