@@ -63,8 +63,8 @@ def weighted(
     details : Details
         `sizes` and `turns` are used.
     weights : (float, float, float)
-        Of distance, size and orientation, each in [0, 1]. The defaults were
-        found with `weights_grid` on mazes and floors; see the documentation.
+        Of distance, size and orientation, each in [0, 1]. The defaults weigh
+        distance most; `weights_grid` lists the choices for a search of one's own.
 
     References
     ----------
