@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 
 __all__ = ["LikelihoodCloser", "LikelihoodRule"]
 
+LEAST_SHOWN = 1e-9
+"""Hypotheses of a smaller posterior are kept, and not reported."""
+
 
 @dataclass(frozen=True, slots=True)
 class LikelihoodRule:
@@ -183,27 +186,38 @@ class LikelihoodCloser:
 
 
 def _decision(track: Track, period: int) -> Decision:
-    live = int(track.state[1])
-    walls = int(track.state[0])
+    """Put the numbers of a walk into words."""
+    walls, live, _, guarded = track.state.tolist()
     ranked = sorted(
-        (
-            (float(p), int(k))
-            for p, k in zip(track.weight[:live, -1], track.period[:live], strict=True)
-            if p > 1e-9
-        ),
-        reverse=True,
-    )
-    hypotheses = tuple(Hypothesis(k, p, 1.0 - p) for p, k in ranked)
-    if not ranked:
-        return Decision(
-            None, 1.0, (), f"after {walls} walls no vertex can be the start"
+        (posterior, k)
+        for posterior, k in zip(
+            track.weight[:live, -1].tolist(), track.period[:live].tolist(), strict=True
         )
+        if posterior > LEAST_SHOWN
+    )
+    hypotheses = tuple(Hypothesis(k, p, 1.0 - p) for p, k in reversed(ranked))
+    if not ranked:
+        reason = f"after {walls} walls no vertex can be the start"
+        return Decision(None, 1.0, (), reason)
     chosen = next((h for h in hypotheses if h.period == period), hypotheses[0])
-    guarded = int(track.state[3])
-    wait = f", but {guarded} walls must repeat first" if guarded else ""
-    verb = "the loop has" if period else "the loop may have"
+    verb, note = "may have", ""
+    if period:
+        verb, note = "has", f"; {_checked(track, walls, period)}"
+    elif guarded:
+        note = f", but {guarded} walls must repeat first"
     reason = (
-        f"after {walls} walls {verb} {chosen.period}: "
-        f"posterior error {chosen.incorrect:.2g}{wait}"
+        f"after {walls} walls the loop {verb} {chosen.period}: "
+        f"posterior error {chosen.incorrect:.2g}{note}"
     )
     return Decision(period or None, chosen.incorrect, hypotheses, reason)
+
+
+def _checked(track: Track, walls: int, period: int) -> str:
+    """Return how much of a closed loop was met twice, and what did not agree."""
+    from evidence.tracking import SYMBOL
+
+    kinds = track.walls[SYMBOL, : walls + 1]
+    differ = int((kinds[period:] != kinds[:-period]).sum())
+    again = min(walls - period, period)
+    corners = f", {differ} corners seen differently" if differ else ""
+    return f"{again} of its walls met again{corners}"

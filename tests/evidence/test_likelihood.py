@@ -126,6 +126,8 @@ def test_outliers_and_a_wrong_corner_do_not_hide_the_loop():
         kind = "TERM" if i == 24 else kinds[i % 20]
         decision = closer.observe(Wall(length, kind, turns[i % 20] * QUARTER))
     assert decision.period == 20
+    # Once against the lap before, once against the lap after.
+    assert "20 of its walls met again, 2 corners seen differently" in decision.reason
 
 
 def test_what_was_accepted_is_taken_back_when_refuted():
