@@ -8,7 +8,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from tests.exploration.strategies import tables
+from tests.strategies import tables
 from topomap.errors import InputError
 from topomap.exploration import (
     Details,

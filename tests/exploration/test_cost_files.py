@@ -8,7 +8,7 @@ import typer
 from hypothesis import HealthCheck, given, settings
 from typer.testing import CliRunner
 
-from tests.exploration.strategies import tables
+from tests.strategies import tables
 from topomap.cli.allocate import allocate as command
 from topomap.errors import InputError
 from topomap.exploration import allocate, read_costs

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.exploration.strategies import scenes
+from tests.strategies import scenes
 from topomap.errors import InputError
 from topomap.exploration import EXACT, INTEGER, allocate, cost_matrix
 from topomap.exploration.wave_allocation import ORDERS, allocate_by_waves

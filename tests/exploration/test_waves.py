@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from tests.exploration.strategies import scenes
+from tests.strategies import scenes
 from topomap.errors import InputError
 from topomap.exploration import EXACT, INTEGER, Steps, cost_matrix, descend, distances
 from topomap.exploration.astar import astar

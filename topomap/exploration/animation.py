@@ -35,6 +35,7 @@ def animate(
     Parameters
     ----------
     run : Run
+        What a simulator returned; its trace is drawn.
     free : array_like of bool, shape (rows, columns)
         The world it was run in.
     reach : float

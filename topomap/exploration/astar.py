@@ -45,14 +45,26 @@ def astar(
     Parameters
     ----------
     free : array_like of bool, shape (rows, columns)
+        Where a robot can be.
     source : (int, int)
         Row and column.
     goals : array_like of int, shape (L, 2)
+        Cells (row, column) to find ways to; all must lie in the grid.
     together : bool
         Whether to search for all goals at once.
     steps : Steps
         Not `INTEGER`: there a diagonal may be longer than the Euclidean
         distance says, which does no harm, but is not what is compared.
+
+    Returns
+    -------
+    Search
+        Length of the way to each goal, in cells, and how many cells were settled.
+
+    Raises
+    ------
+    InputError
+        If the grid is empty or not flat, or a cell lies outside it.
 
     Examples
     --------

@@ -72,12 +72,20 @@ def explore_asynchronously(
 
     Parameters
     ----------
-    free, starts, settings, rng
+    free : array_like of bool, shape (rows, columns)
+        Where a robot can be.
+    starts : array_like of int, shape (n, 2), n >= 1
+        Cells (row, column), free and different.
+    settings : Settings, optional
         As `explore_grid`; `period` and `wait` have no meaning here, and `limit`
-        is a time.
+        is in seconds.
     periods : Periods, optional
+        After how many cells of its way a robot looks, and decides; by default
+        after each.
     speeds : array_like, shape (n,), optional
         Cells per second; 1 by default.
+    rng : numpy.random.Generator, optional
+        Draws which messages are lost; needed only if any can be.
 
     Returns
     -------

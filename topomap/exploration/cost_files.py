@@ -32,6 +32,7 @@ def read_costs(path: str | Path) -> Costs:
     Returns
     -------
     ndarray, shape (robots, frontiers)
+        As `check_costs` returns it: `inf` where there is no way.
 
     Raises
     ------

@@ -29,6 +29,7 @@ def check_costs(costs: ArrayLike, source: str = "costs") -> Costs:
     Returns
     -------
     ndarray, shape (n, m)
+        A copy, in the unit of the input; `inf` for None too.
 
     Raises
     ------

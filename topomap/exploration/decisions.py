@@ -79,10 +79,16 @@ def decide(
     frontiers : Frontiers
         At least one.
     settings : Settings
+        The allocator, whether to exchange, and the reach are used.
     scratch : ndarray of int, shape (at least m, cells)
         Zero before and after.
     previous : ndarray of int, shape (n,), optional
         The cell each robot was on its way to, or -1.
+
+    Returns
+    -------
+    Decision
+        Frontier, way in cells and next cell of each robot.
     """
     if settings.allocator in ORDERS and not settings.exchange:
         return _by_waves(open_, width, robots, frontiers, settings.allocator, scratch)

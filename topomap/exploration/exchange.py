@@ -28,6 +28,7 @@ def exchange(costs: Costs, chosen: ArrayLike) -> NDArray[np.int64]:
     Parameters
     ----------
     costs : ndarray, shape (n, m)
+        From robot i to frontier j; `inf` where there is no way.
     chosen : array_like of int, shape (n,)
         Of any allocator; -1 for none. Not changed.
 

@@ -131,6 +131,17 @@ def group_size(reach: float, often: bool = True) -> int:
     reach : float
         R_p, in cells.
     often : bool
+        Whether robots look on their way too, or only where they arrive.
+
+    Returns
+    -------
+    int
+        In cells, rounded down, at least 1.
+
+    Raises
+    ------
+    InputError
+        If the reach is not finite or not above 0.
 
     Examples
     --------

@@ -78,6 +78,7 @@ def allocate_on_graph(
     robots : sequence of nodes, at least one
         Where each robot is.
     frontiers : sequence of nodes
+        Where the searches start, one each; their order numbers the frontiers.
     allocator : str
         ``mindist``, ``greedy``, ``minpos`` or ``mpg``.
     asking : int, optional

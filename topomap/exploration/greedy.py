@@ -67,6 +67,7 @@ def utility(
     Parameters
     ----------
     costs : ndarray, shape (n, m)
+        From robot i to frontier j; `inf` where there is no way.
     details : Details
         `between` and `visible` are used, and `reach` as :math:`d_{max}`. What
         is not visible is not lowered; without `visible`, all within reach is.

@@ -67,6 +67,7 @@ def grid_of_world(world: World, cell: float = 0.1) -> NDArray[np.bool_]:
     Parameters
     ----------
     world : World
+        Its outer ring and islands, in metres.
     cell : float
         Side of a cell, in metres.
 

@@ -26,6 +26,7 @@ def maze(
     Parameters
     ----------
     rng : numpy.random.Generator
+        Draws the tree and which walls are taken out.
     size : int
         Rows and columns of the grid, in cells, about.
     corridor : int
@@ -130,9 +131,19 @@ def stable(
     so on; yet each robot's own nearest door is the one of its number, so that
     MinDist and greedy send the robots to the first doors one by one.
 
+    Parameters
+    ----------
+    stalls : int
+        How many stalls, twice the number of robots.
+    depth : int
+        Rows from one door to the next.
+    across : int
+        Columns from one door to the next.
+
     Returns
     -------
-    free : ndarray of bool
+    free : ndarray of bool, shape (rows, columns)
+        Where a robot can be.
     starts : ndarray of int, shape (stalls // 2, 2)
         Cells (row, column) of the robots.
     """

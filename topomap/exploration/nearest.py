@@ -60,6 +60,7 @@ def weighted(
     Parameters
     ----------
     costs : ndarray, shape (n, m)
+        Way from robot i to frontier j; `inf` where there is none.
     details : Details
         `sizes` and `turns` are used.
     weights : (float, float, float)

@@ -83,6 +83,7 @@ def observation_pose(
     obstacle : array_like of bool, shape (rows, columns)
         What stops sight.
     sensor : Sensor
+        Its least and greatest range, in cells, and its field of view, in radians.
 
     Returns
     -------

@@ -26,6 +26,7 @@ def ranks(costs: Costs) -> NDArray[np.int64]:
     Parameters
     ----------
     costs : ndarray, shape (n, m)
+        From robot i to frontier j; `inf`, where there is no way, comes last.
 
     Returns
     -------

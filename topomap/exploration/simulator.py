@@ -39,6 +39,7 @@ def explore_grid(
     starts : array_like of int, shape (n, 2), n >= 1
         Cells (row, column), free and different.
     settings : Settings, optional
+        How robots see, decide and talk; the defaults of `Settings` unless given.
     rng : numpy.random.Generator, optional
         Draws which messages are lost; needed only if any can be.
 

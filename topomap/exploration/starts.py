@@ -34,9 +34,19 @@ def central_starts(
     world. Only cells of the largest region count. The square has twice as many
     free cells as robots, so that there is something to draw.
 
+    Parameters
+    ----------
+    free : array_like of bool, shape (rows, columns)
+        Where a robot can be.
+    robots : int
+        How many cells to draw.
+    rng : numpy.random.Generator
+        Draws the cells.
+
     Returns
     -------
     ndarray of int, shape (robots, 2)
+        Different free cells (row, column).
 
     Raises
     ------

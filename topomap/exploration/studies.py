@@ -56,8 +56,19 @@ def run_worlds(
     ----------
     kind : str or ndarray of bool
         As `grid_world`, or ``stable``, or one grid in which only starts differ.
-    robots, trials, seed : int
+    robots : int
+        How many robots explore each world.
+    trials : int
+        How many worlds.
     settings : Settings
+        How robots see, decide and talk.
+    seed : int
+        Trial k draws from a generator seeded with ``[seed, k]``.
+
+    Returns
+    -------
+    list of Run
+        One for each trial, in order.
     """
     runs = []
     for trial in range(trials):
@@ -108,10 +119,18 @@ def bootstrap(
     Parameters
     ----------
     rows : ndarray, shape (n, ...)
+        One for each independent trial, such as the times in one world.
     statistic : callable
         Takes draws of rows, shape (draws, n, ...), to one value each.
     rng : numpy.random.Generator
+        Draws the rows.
     draws : int
+        How many times n rows are drawn.
+
+    Returns
+    -------
+    (float, float)
+        The quantiles 0.025 and 0.975 of the statistic over the draws.
 
     Examples
     --------
@@ -160,12 +179,21 @@ def compare(
         As in `run_worlds`.
     names : sequence of str
         Allocators.
-    robots, trials : int
+    robots : int
+        How many robots explore each world.
+    trials : int
+        How many worlds, the same for each allocator.
     rival : str
         The allocator that the others are measured by.
     seed : int
+        Of the worlds and starts, and of the bootstrap.
     settings : Settings, optional
         What is common to all; its allocator does not count.
+
+    Returns
+    -------
+    dict of str to Summary
+        By the name of the allocator, in the order of `names`.
     """
     common = settings or Settings()
     runs = {

@@ -58,6 +58,7 @@ def allocate_by_waves(
     Parameters
     ----------
     free : array_like of bool, shape (rows, columns)
+        Where a robot can be.
     robots : array_like of int, shape (n, 2), n >= 1
         The cell of each robot.
     frontiers : sequence of array_like of int, each of shape (K, 2)
@@ -73,10 +74,12 @@ def allocate_by_waves(
         start of a wave, by the Euclidean length and for the asking robot; here it
         holds for every step, so a wave also rests while all near it have theirs.
     steps : Steps
+        What a straight and a diagonal step cost.
 
     Returns
     -------
     WaveAllocation
+        The frontier of each robot, its way in cells, and how many cells it took.
 
     Raises
     ------

@@ -16,11 +16,7 @@ if TYPE_CHECKING:
 
     from topomap.exploration.costs import Costs
 
-__all__ = ["Field", "cell_indices", "cost_matrix", "descend", "distances", "padded"]
-
-if TYPE_CHECKING:
-    Field = NDArray[np.float64]
-    """Shape (rows, columns): length of the shortest way, in cells; inf: none."""
+__all__ = ["cell_indices", "cost_matrix", "descend", "distances", "padded"]
 
 
 def distances(
@@ -29,7 +25,7 @@ def distances(
     *,
     until: ArrayLike | None = None,
     steps: Steps = EXACT,
-) -> Field:
+) -> NDArray[np.float64]:
     """Return the length of the shortest way from the sources to every cell.
 
     One wave, [B]_ algorithm 5: 8-connected; a diagonal step may pass between
@@ -107,11 +103,13 @@ def cost_matrix(
     Parameters
     ----------
     free : array_like of bool, shape (rows, columns)
+        Where a robot can be.
     robots : array_like of int, shape (n, 2)
         The cell of each robot.
     frontiers : sequence of array_like of int, each of shape (K, 2)
         The cells of each frontier, or its one representative cell.
     steps : Steps
+        What a straight and a diagonal step cost.
 
     Returns
     -------
@@ -135,12 +133,32 @@ def cost_matrix(
 
 
 def descend(
-    field: Field, start: tuple[int, int], *, steps: Steps = EXACT
+    field: NDArray[np.float64], start: tuple[int, int], *, steps: Steps = EXACT
 ) -> list[tuple[int, int]]:
     """Return the cells of a shortest way from `start` to the source of a wave.
 
     Where several neighbours lie on one, the uppermost and then the leftmost is
-    taken. Empty if there is no way.
+    taken.
+
+    Parameters
+    ----------
+    field : ndarray, shape (rows, columns)
+        Lengths in cells, from `distances` to the end of the way, not cut short
+        before `start`.
+    start : (int, int)
+        Row and column.
+    steps : Steps
+        Those the wave was made with.
+
+    Returns
+    -------
+    list of (int, int)
+        Cells (row, column), `start` and source included; empty if there is no way.
+
+    Raises
+    ------
+    InputError
+        If `start` lies outside the grid.
 
     Examples
     --------
