@@ -34,7 +34,6 @@ class Outline:
         """Begin with a square; `most` is how many corners there will ever be."""
         self._at = np.zeros((2, most), dtype=np.int64)
         self._next = np.zeros(most, dtype=np.int64)
-        self._before = np.zeros(most, dtype=np.int64)
         self._ring = np.zeros(most, dtype=np.int64)
         self._size = 0
         self._add_square(0, 1, 0, 1)
@@ -69,7 +68,7 @@ class Outline:
         near, far = int(self._at[along, stays]), int(self._at[along, moved])
         cut = int(rng.integers(min(near, far), max(near, far)))
         level = int(self._at[across, moved])
-        below, above = self._way(first, moved, along, (cut, far, level))
+        below, above = self._way(along, cut, far, level)
         gap = int(rng.integers(below, above))
 
         self._insert_line(along, cut)
@@ -110,24 +109,19 @@ class Outline:
 
     def _link(self, chain: list[int]) -> None:
         self._next[chain[:-1]] = chain[1:]
-        self._before[chain[1:]] = chain[:-1]
 
     def _insert_line(self, axis: int, gap: int) -> None:
         """Make room for a line between lines `gap` and `gap + 1`."""
         at = self.at[axis]
         at += at > gap
 
-    def _way(
-        self, wall: int, moved: int, along: int, place: tuple[int, int, int]
-    ) -> tuple[int, int]:
-        """Return the range of gaps onto which the half at `moved` can be pushed."""
-        cut, far, level = place
+    def _way(self, along: int, cut: int, far: int, level: int) -> tuple[int, int]:
+        """Return the lines that bound the way across of half a wall at `level`."""
         at, to = self.at, self.at[:, self.next]
         low, high = np.minimum(at, to), np.maximum(at, to)
         # The half reaches from the middle of gap `cut` to line `far`.
         least, most = (cut + 1, far) if far > cut else (far, cut)
         in_way = (low[along] <= most) & (high[along] >= least)
-        in_way[[wall, moved if moved != wall else self._before[moved]]] = False
         is_above = in_way & (low[1 - along] > level)
         is_below = in_way & (high[1 - along] < level)
         top = int(at[1 - along].max()) + 1

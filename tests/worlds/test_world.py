@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.strategies import random_worlds
@@ -73,6 +73,7 @@ tiny = st.sampled_from([0.0, 1e-320, 1e-200, 1e-9, 1.0, 1e6, 1e308, -1e308, math
 
 
 @given(st.lists(st.tuples(tiny, tiny), max_size=6))
+@example([(0.0, 0.0), (1e-200, 0.0), (1.0, 1.0), (0.0, 1e-200)])
 @settings(deadline=None)
 def test_any_numbers_make_a_world_or_a_world_error(corners):
     try:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Plan", "read_plan"]
 
+MOST_METRES = 10_000.0
+"""No building is wider: a plan that is has a wrong scale or a stray corner."""
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -70,7 +73,13 @@ def read_plan(path: Path) -> Plan:
         )
     # Pictures have y down.
     turn = np.array([scale, -scale])
-    low = np.min(np.concatenate(rooms) * turn, axis=0)
+    corners = np.concatenate(rooms) * turn
+    low, width = corners.min(axis=0), float(np.ptp(corners, axis=0).max())
+    if width > MOST_METRES:
+        raise WorldError(
+            f"{path}: scale",
+            f"expected at most {MOST_METRES:g} m of width; got {width:g}",
+        )
     return Plan(
         tuple(room * turn - low for room in rooms),
         np.reshape(np.array(doors), (-1, 2)) * turn - low,

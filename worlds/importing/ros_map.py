@@ -13,7 +13,7 @@ from worlds.world import World, WorldError
 
 __all__ = ["import_ros_map"]
 
-MOST_BYTES = 100_000
+MOST_BYTES = 4_000
 """Of the YAML file: it holds half a dozen lines."""
 
 

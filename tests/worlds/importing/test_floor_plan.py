@@ -62,7 +62,8 @@ def test_a_door_near_a_corner_begins_in_it(tmp_path):
     path = write_plan(tmp_path / "flat.xml", [LEFT, RIGHT], [(4, 0.6)])
     world = worlds.import_world(path)
     assert len(world.outer) == 8
-    assert world.free_space.covers(shapely.box(3.9, 0.1, 4.1, 0.9))
+    assert world.free_space.covers(shapely.box(3.9, 0.1, 4.1, 0.97))
+    assert not world.free_space.intersects(shapely.box(3.95, 0.98, 4.05, 2.9))
 
 
 def test_a_narrow_door_is_closed_unless_asked_for(tmp_path):
@@ -156,6 +157,11 @@ def test_what_is_no_plan_is_refused(tmp_path, text, message):
     [
         ("<value>10</value>", "<value>0</value>", r"represented_distance.* got '0'"),
         ("<value>10</value>", "<value>x</value>", r"represented_distance.* got 'x'"),
+        (
+            "<value>1000</value>",
+            "<value>1e9</value>",
+            r"scale: expected at most 10000 m",
+        ),
         ("<value>1000</value>", "<value>inf</value>", r"real_distance.* got 'inf'"),
         ('x="4"', 'x="four"', r"space\[0\]/bounding_polygon/point: .*'four'"),
         ('x="4"', 'x="nan"', r"space\[0\]/bounding_polygon/point: .*'nan'"),

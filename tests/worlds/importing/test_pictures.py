@@ -220,8 +220,8 @@ def test_faults_in_a_ros_map_are_named(tmp_path, changes, message):
         (b"!!python/object:os.system {}", r"map.yaml: is no YAML"),
         (b"- 1", r"map.yaml: expected fields such as image"),
         (b"", r"map.yaml: expected fields such as image"),
-        (b" " * 200_000, r"map.yaml: expected at most 100000 bytes"),
-        (b"[" * 5_000, r"map.yaml: is no YAML"),
+        (b" " * 5_000, r"map.yaml: expected at most 4000 bytes"),
+        (b"[" * 2_000, r"map.yaml: is no YAML"),
     ],
 )
 def test_what_is_no_ros_map_is_refused(tmp_path, content, message):
