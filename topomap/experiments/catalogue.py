@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 __all__ = ["catalogue", "find"]
 
-MODULES = ("topomap.experiments.mapping",)
+MODULES = ("topomap.experiments.mapping", "topomap.experiments.floor_plans")
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
 
 
