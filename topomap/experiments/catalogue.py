@@ -16,6 +16,7 @@ __all__ = ["catalogue", "find"]
 MODULES = (
     "topomap.experiments.closing",
     "topomap.experiments.exploring",
+    "topomap.experiments.floor_plans",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
 )
