@@ -102,7 +102,7 @@ def _cells() -> tuple[Cell, ...]:
     """Return a cell for each plan and body; for no plan where there are none."""
     plans = sorted(path.stem for path in plan_folder().glob("*.xml")) or ["none"]
     return tuple(
-        {"plan": plan, "body": body, "sigma": 0.02, "closing": "dempster-shafer"}
+        {"plan": plan, "body": body, "sigma": 0.02, "closing": "likelihood"}
         for body, plan in product(BODIES, plans)
     )
 
