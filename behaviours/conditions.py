@@ -6,6 +6,7 @@ from behaviours.port import Outcome, Reason
 
 __all__ = [
     "blocked",
+    "bumped",
     "done",
     "narrowed",
     "receded",
@@ -27,6 +28,11 @@ def seen(outcome: Outcome) -> bool:
 def blocked(outcome: Outcome) -> bool:
     """A wall stands ahead."""
     return outcome.reason is Reason.BLOCKED
+
+
+def bumped(outcome: Outcome) -> bool:
+    """The body touched something that no sensor had told of, and drew back."""
+    return outcome.reason is Reason.BUMPED
 
 
 def receded(outcome: Outcome) -> bool:

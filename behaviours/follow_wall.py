@@ -9,14 +9,17 @@ table C.6 and section 3.2.1 of [K]_:
 | TR | done | MF_BESIDE |
 | MF_BESIDE | done | FM |
 | MF_BESIDE | blocked | INT |
+| MF_BESIDE | bumped | FM |
 | FM | blocked | INT |
 | FM | stepped | AL |
 | FM | receded | MF_PAST |
 | FM | narrowed | HALL |
+| FM | bumped | FM |
 | AL | done | FM |
 | AL | receded | MF_PAST |
 | MF_PAST | done | EXT |
 | MF_PAST | blocked | HALL |
+| MF_PAST | bumped | HALL |
 
 Purpose: move along a wall in open space, r0 from it, and end at its corner.
 Preconditions: the wall is on the right, r0 away, or the robot stands at a
@@ -28,7 +31,8 @@ Returns the `Leg` walked.
 It starts in TL at an inner corner, in TR at an outer one (the open-loop move
 round the edge), and in FM beside a wall. A step inside the safe zone is an
 ill-defined corner, ILL: the robot regains r0 and goes on. HALL is the end where
-open space ends.
+open space ends. After a bump, from which the body draws back, the robot follows
+on: what it touched may have gone. What stays makes the body STUCK.
 
 A wall that juts out by less than r0 ends behind the robot when it has turned at
 the inner corner before it: FM then counts back to the edge, and the outer corner
@@ -43,12 +47,14 @@ References
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum, auto
+from functools import cache
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
-from behaviours.conditions import blocked, done, narrowed, receded, stepped
+from behaviours.conditions import blocked, bumped, done, narrowed, receded, stepped
 from behaviours.port import Align, Behaviour, Follow, Move, Side, Turn
 from behaviours.vertices import VertexType
 
@@ -82,14 +88,17 @@ FOLLOW_WALL = Automaton((State.TL, State.TR, State.FM), (
     Row(State.TR,        done,      State.MF_BESIDE),
     Row(State.MF_BESIDE, done,      State.FM),
     Row(State.MF_BESIDE, blocked,   State.INT),
+    Row(State.MF_BESIDE, bumped,    State.FM),
     Row(State.FM,        blocked,   State.INT),
     Row(State.FM,        stepped,   State.AL),
     Row(State.FM,        receded,   State.MF_PAST),
     Row(State.FM,        narrowed,  State.HALL),
+    Row(State.FM,        bumped,    State.FM),
     Row(State.AL,        done,      State.FM),
     Row(State.AL,        receded,   State.MF_PAST),
     Row(State.MF_PAST,   done,      State.EXT),
     Row(State.MF_PAST,   blocked,   State.HALL),
+    Row(State.MF_PAST,   bumped,    State.HALL),
 ), (State.INT, State.EXT, State.HALL))
 # fmt: on
 
@@ -115,7 +124,8 @@ class Leg:
     """Least range on the left on the way, in metres; `inf` if nothing was seen."""
 
 
-def actions(parameters: Parameters) -> dict[State, Primitive]:
+@cache
+def actions(parameters: Parameters) -> Mapping[State, Primitive]:
     """Return what the robot does in each state."""
     past = Move(parameters.r0, keep=parameters.r0)
     return {
@@ -146,7 +156,7 @@ def follow_wall(parameters: Parameters, corner: VertexType | None) -> Behaviour[
     Raises
     ------
     UnforeseenError
-        From the running coroutine, if the body bumps or is stuck.
+        From the running coroutine, if the body is stuck, or bumps while it aligns.
     """
     path = yield from perform(FOLLOW_WALL, actions(parameters), START[corner])
     *done_, (end, _) = path

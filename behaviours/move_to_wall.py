@@ -8,12 +8,14 @@ table C.5 of [K]_:
 | AF | wall in front | TL |
 | AF | wall on the right | AL |
 | AF | wall on the left | TL_FIRST |
+| AF | bumped | TL |
 | TL | done | AL |
 | TL_FIRST | done | TL |
 | AL | done | RET |
 | AL | receded | AF_RIGHT |
 | AF_RIGHT | seen | AL |
 | AF_RIGHT | blocked | TL |
+| AF_RIGHT | bumped | TL |
 | AF_RIGHT | done | AB_RIGHT |
 | AB_RIGHT | seen | AL |
 
@@ -25,7 +27,7 @@ wall with, is always the right one here. Returns nothing.
 Differs from the source: it has the robot turn as soon as any sensor sees a
 wall. What a wide front sensor sees may then be no longer abeam after the turn,
 as when the robot came upon the very end of a wall; AF_RIGHT and AB_RIGHT look
-for it ahead and then behind.
+for it ahead and then behind. What it bumps into is a wall ahead.
 
 References
 ----------
@@ -35,11 +37,13 @@ References
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import Enum, auto
+from functools import cache
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
-from behaviours.conditions import blocked, done, receded, seen
+from behaviours.conditions import blocked, bumped, done, receded, seen
 from behaviours.port import (
     Align,
     Approach,
@@ -104,19 +108,22 @@ MOVE_TO_WALL = Automaton((State.AF,), (
     Row(State.AF,       wall_in_front,     State.TL),
     Row(State.AF,       wall_on_the_right, State.AL),
     Row(State.AF,       wall_on_the_left,  State.TL_FIRST),
+    Row(State.AF,       bumped,            State.TL),
     Row(State.TL,       done,              State.AL),
     Row(State.TL_FIRST, done,              State.TL),
     Row(State.AL,       done,              State.RET),
     Row(State.AL,       receded,           State.AF_RIGHT),
     Row(State.AF_RIGHT, seen,              State.AL),
     Row(State.AF_RIGHT, blocked,           State.TL),
+    Row(State.AF_RIGHT, bumped,            State.TL),
     Row(State.AF_RIGHT, done,              State.AB_RIGHT),
     Row(State.AB_RIGHT, seen,              State.AL),
 ), (State.RET,))
 # fmt: on
 
 
-def actions(parameters: Parameters) -> dict[State, Primitive]:
+@cache
+def actions(parameters: Parameters) -> Mapping[State, Primitive]:
     """Return what the robot does in each state."""
     r0, r_min, r_max = parameters.r0, parameters.r_min, parameters.r_max
     right = (Sensor.RIGHT,)
@@ -146,7 +153,7 @@ def move_to_wall(parameters: Parameters) -> Behaviour[None]:
     Raises
     ------
     UnforeseenError
-        From the running coroutine, if the body bumps, is stuck, or sees no wall
-        again where it saw one.
+        From the running coroutine, if the body is stuck, bumps going backward or
+        aligning, or sees no wall again where it saw one.
     """
     yield from perform(MOVE_TO_WALL, actions(parameters), State.AF)

@@ -1,6 +1,7 @@
 """Dempster-Shafer evidence, and the decision that a loop is closed."""
 
 from evidence.dempster_shafer import DempsterShaferCloser, PublishedRule, Readings
+from evidence.likelihood import LikelihoodCloser, LikelihoodRule
 from evidence.mass import (
     MassFunction,
     TotalConflictError,
@@ -20,6 +21,8 @@ __all__ = [
     "DempsterShaferCloser",
     "Freedom",
     "Hypothesis",
+    "LikelihoodCloser",
+    "LikelihoodRule",
     "LoopCloser",
     "MassFunction",
     "PublishedRule",

@@ -98,26 +98,28 @@ def mass_in_disc(here: Position, radius: float) -> float:
     Notes
     -----
     In (B.5) the inner r* has lost its square; the limits are those of a disc. The
-    inner integral is a difference of error functions, the outer one a Gauss-Legendre
-    rule of 32 nodes over that part of the disc that is within 8 standard
-    deviations; absolute error below 1e-6.
+    integral along the wider axis is a difference of error functions, that along the
+    narrower one a Gauss-Legendre rule of 32 nodes over the part of the disc that is
+    within 8 standard deviations; absolute error below 1e-5.
     """
     u, v, su, sv = here.principal
     if su < sv:
         u, v, su, sv = v, u, sv, su
     if su <= 1e-9 * radius:
         return 1.0 if math.hypot(u, v) <= radius else 0.0
-    low, high = max(-radius, u - 8 * su), min(radius, u + 8 * su)
+    if sv <= 1e-9 * radius:
+        return _between(math.sqrt(max(radius**2 - v * v, 0.0)), u, su)
+    low, high = max(-radius, v - 8 * sv), min(radius, v + 8 * sv)
     if low >= high:
         return 0.0
-    # x = radius sin(t) takes the square root out of the integrand.
+    # y = radius sin(t) takes the square root out of the integrand.
     begin, end = math.asin(low / radius), math.asin(high / radius)
     total = 0.0
     for node, weight in zip(NODES, WEIGHTS, strict=True):
         t = begin + (end - begin) * (node + 1) / 2
-        x, half = radius * math.sin(t), radius * math.cos(t)
-        density = math.exp(-0.5 * ((x - u) / su) ** 2) / (su * math.sqrt(2 * math.pi))
-        total += weight * density * _between(-half, half, v, sv) * half
+        y, half = radius * math.sin(t), radius * math.cos(t)
+        density = math.exp(-0.5 * ((y - v) / sv) ** 2) / (sv * math.sqrt(2 * math.pi))
+        total += weight * density * _between(half, u, su) * half
     return min(max(total * (end - begin) / 2, 0.0), 1.0)
 
 
@@ -145,7 +147,7 @@ def least_distance(r0: float, r_min: float, r_max: float) -> float:
     r_max - r0 and jutted out by more than r0 - r_min in between, at right angles:
     so they are ``hypot(r_max - r0, r0 - r_min)`` apart. (3.1) of [K] prints
     ``hypot(r0, r_min)`` instead, which a search over small staircases refutes
-    (``tests/evidence/test_least_distance.py``).
+    (``tests/evidence/test_position.py``).
     """
     if not 0 < r_min < r0 < r_max:
         raise ValueError(
@@ -155,9 +157,7 @@ def least_distance(r0: float, r_min: float, r_max: float) -> float:
     return math.hypot(r_max - r0, r0 - r_min)
 
 
-def _between(low: float, high: float, mean: float, deviation: float) -> float:
-    """Return the Gaussian probability between two limits."""
-    if deviation <= 0:
-        return 1.0 if low <= mean <= high else 0.0
+def _between(half: float, mean: float, deviation: float) -> float:
+    """Return the Gaussian probability of the interval from -half to half."""
     scale = 1.0 / (deviation * math.sqrt(2))
-    return 0.5 * (math.erf((high - mean) * scale) - math.erf((low - mean) * scale))
+    return 0.5 * (math.erf((half - mean) * scale) + math.erf((half + mean) * scale))

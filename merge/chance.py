@@ -7,6 +7,9 @@ from collections.abc import Sequence
 
 __all__ = ["false_merge_probability"]
 
+LEAST = 1e-9
+"""No model of what buildings look like is sure to more digits."""
+
 
 def false_merge_probability(
     score: float, rivals: Sequence[float], trials: float
@@ -26,7 +29,7 @@ def false_merge_probability(
     Returns
     -------
     float
-        In (0, 1]. Near 1/2 when two overlays are equally good, as in a symmetric
+        In [1e-9, 1]. Near 1/2 when two overlays are equally good, as in a symmetric
         building; near 1 when the best is what chance brings.
 
     Notes
@@ -44,4 +47,4 @@ def false_merge_probability(
     """
     against = math.exp(min(math.log(trials) - score, 700.0))
     against += sum(math.exp(min(other - score, 700.0)) for other in rivals)
-    return against / (1.0 + against)
+    return max(against / (1.0 + against), LEAST)

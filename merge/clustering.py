@@ -110,7 +110,6 @@ def cluster_transforms(transforms: ArrayLike, points: ArrayLike, reach: float) -
     >>> cluster_transforms(turns, [(-100, 0), (100, 0)], reach=0.5)
     array([0, 1])
     """
-    from scipy.cluster.hierarchy import fcluster, linkage
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
     from scipy.spatial import cKDTree
@@ -137,7 +136,9 @@ def cluster_transforms(transforms: ArrayLike, points: ArrayLike, reach: float) -
     label = part.astype(np.int64) * len(t)
     order = np.argsort(part, kind="stable")
     for rows in np.split(order, np.flatnonzero(np.diff(part[order])) + 1):
-        if len(rows) > 1:
+        if len(rows) > 2:  # Two that are linked are one cluster.
+            from scipy.cluster.hierarchy import fcluster, linkage
+
             tree = linkage(place[rows], method="average")
             label[rows] += fcluster(tree, reach, criterion="distance") - 1
     _, at_first, number = np.unique(label, return_index=True, return_inverse=True)

@@ -50,7 +50,8 @@ def embed(graph: Graph, sideways: float = SIDEWAYS) -> Floats:
     normal, pull, free = _springs(graph, sideways)
     out = np.zeros(2 * len(graph))
     if len(free):
-        out[free] = spsolve(normal[free][:, free].tocsc(), pull[free])
+        matrix = normal[free][:, free].tocsc()
+        out[free] = spsolve(matrix, pull[free], permc_spec="MMD_AT_PLUS_A")
     return out.reshape(-1, 2)
 
 
@@ -61,7 +62,9 @@ def embed_with_covariances(
 
     Parameters
     ----------
-    graph, sideways
+    graph : Graph
+        As for `embed`.
+    sideways : float, optional
         As for `embed`.
 
     Returns

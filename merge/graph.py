@@ -172,6 +172,9 @@ _KINDS = {
 }
 
 
+_NOUN = {"lengths": "length", "variances": "variance"}
+
+
 def _check_shapes(graph: Graph) -> None:
     size, count = len(graph.types), len(graph.lengths)
     if size == 0:
@@ -209,23 +212,27 @@ def _check_numbers(graph: Graph) -> None:
         value = getattr(graph, name)
         if (value <= 0).any():
             k = int(np.argmax(value <= 0))
-            raise GraphError(f"{name}[{k}]", value[k], f"a {name[:6]} above 0")
+            raise GraphError(f"{name}[{k}]", value[k], f"a {_NOUN[name]} above 0")
 
 
 def _check_edges(graph: Graph) -> None:
     degree = np.diff(graph.first_exit)
-    for k, (u, i, v, j) in enumerate(graph.edges.tolist()):
-        for vertex, leaving in ((u, i), (v, j)):
-            if not 0 <= vertex < len(degree):
-                raise GraphError(
-                    f"edges[{k}]", f"vertex {vertex}", f"a vertex below {len(degree)}"
-                )
-            if not 0 <= leaving < degree[vertex]:
-                raise GraphError(
-                    f"edges[{k}]",
-                    f"exit {leaving} of vertex {vertex}",
-                    f"an exit below {degree[vertex]}",
-                )
+    for vertex, leaving in ((0, 1), (2, 3)):
+        u, i = graph.edges[:, vertex], graph.edges[:, leaving]
+        unknown = (u < 0) | (u >= len(degree))
+        if unknown.any():
+            k = int(np.argmax(unknown))
+            raise GraphError(
+                f"edges[{k}]", f"vertex {u[k]}", f"a vertex below {len(degree)}"
+            )
+        wrong = (i < 0) | (i >= degree[u])
+        if wrong.any():
+            k = int(np.argmax(wrong))
+            raise GraphError(
+                f"edges[{k}]",
+                f"exit {i[k]} of vertex {u[k]}",
+                f"an exit below {degree[u[k]]}",
+            )
     ends = np.concatenate([graph.edges[:, :2], graph.edges[:, 2:]])
     used = graph.first_exit[ends[:, 0]] + ends[:, 1]
     order = np.argsort(used, kind="stable")

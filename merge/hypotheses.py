@@ -63,6 +63,7 @@ def grow_hypotheses(
     b: Layout,
     options: Options,
     touched: tuple[NDArray[np.bool_], NDArray[np.bool_]] | None = None,
+    seeds: Ints | None = None,
 ) -> Hypotheses:
     """Pair compatible vertices of two maps and grow the pairs, [K]_ 4.2.
 
@@ -79,6 +80,8 @@ def grow_hypotheses(
         Thresholds.
     touched : pair of arrays of bool, shapes (V_A,) and (V_B,), optional
         Only pairs with a marked vertex start to grow; all unless given.
+    seeds : ndarray of int, shape (K, 2), optional
+        Vertex pairs that start to grow all the same.
 
     Returns
     -------
@@ -106,8 +109,11 @@ def grow_hypotheses(
     width = int(max(signatures.a.max(initial=0), signatures.b.max(initial=0))) + 1
     entries_a, keys_a = _entries(a, signatures.a, width, ordered=False)
     entries_b, keys_b = _entries(b, signatures.b, width, ordered=True)
-    one = entries_b[:, 0]
+    one, two = entries_b[:, 0], entries_b[:, 1]
     low = b.length[one] - np.sqrt(options.most * b.variance[one])
+    rows = np.column_stack(
+        [b.length[one], b.variance[one], b.length[two], b.variance[two], low]
+    )
     rank_a = np.lexsort((entries_a[:, 0], keys_a))
     rank_b = np.lexsort((low, keys_b))
     gain_a, gain_b = _gains(a, b, signatures.a, signatures.b, width)
@@ -115,12 +121,27 @@ def grow_hypotheses(
         only_a, only_b = np.ones(len(a.types), bool), np.ones(len(b.types), bool)
     else:
         only_a, only_b = touched
+    if seeds is None:
+        known = np.zeros(0, np.int64)
+    else:
+        known = np.unique(seeds[:, 0] * len(b.types) + seeds[:, 1])
     first, darts_a, darts_b, score, edges, against, tried = grow_all(
         *(a, b, keys_a[rank_a], entries_a[rank_a]),
-        *(keys_b[rank_b], entries_b[rank_b], low[rank_b], gain_a, gain_b),
+        *(keys_b[rank_b], one[rank_b], rows[rank_b], gain_a, gain_b),
         *(options.angle, options.most, int(options.doors), options.tolerate_rim),
-        *(options.least, only_a, only_b),
+        *(options.least, only_a, only_b, known),
     )
+    # The same hypotheses come in the same order, wherever growth began.
+    sizes = np.diff(first)
+    group = np.repeat(np.arange(len(sizes)), sizes)
+    head = np.lexsort((darts_a, group))[first[:-1]]
+    rank = np.lexsort((darts_b[head], darts_a[head]))
+    place = np.empty(len(rank), np.int64)
+    place[rank] = np.arange(len(rank))
+    order = np.lexsort((darts_a, place[group]))
+    darts_a, darts_b = darts_a[order], darts_b[order]
+    score, edges, against = score[rank], edges[rank], against[rank]
+    first = np.concatenate([[0], np.cumsum(sizes[rank])])
     # Loops repeat what their other edges say: count each new vertex once.
     sizes = np.diff(first)
     share = np.minimum((sizes - 1) / np.maximum(edges, 1), 1.0)

@@ -90,13 +90,15 @@ def slot_of(keys, key):
 
 @njit(cache=True)
 def grow_all(
-    a, b, key_a, entry_a, key_b, entry_b, low_b, gain_a, gain_b,
-    tol, most, slack, rim, least, only_a, only_b,
+    a, b, key_a, entry_a, key_b, entry_b, row_b, gain_a, gain_b,
+    tol, most, slack, rim, least, only_a, only_b, known,
 ):  # fmt: skip
     """Grow every seed and return the hypotheses that survive.
 
-    Entries are pairs of solid darts of one vertex, (first, second), sorted by key
-    and, in B, by the least length that the first allows, `low_b`. Returns arrays:
+    Entries are pairs of solid darts of one vertex, sorted by key; of B only the first
+    dart is given, and in `row_b` what the search reads: length and variance at the
+    first and at the second, and the least length that the first allows, by which
+    rows of one key rise. Returns arrays:
     the start of each hypothesis, its pairs (dart of A, dart of B, standing for vertex
     pair and rotation), scores in units of 2**-20, matched edges, contradictions; and
     the number of seeds tried.
@@ -131,20 +133,25 @@ def grow_all(
         u = a.owner[a1]
         p = a.first[u]
         high = a.length[a1] + math.sqrt(most * a.variance[a1])
+        la1, va1 = a.length[a1], most * a.variance[a1]
+        la2, va2 = a.length[a2], most * a.variance[a2]
         for y in range(lo, total_b):
-            if key_b[y] != key_a[x]:
-                break
-            b1, b2 = entry_b[y, 0], entry_b[y, 1]
             # Rows rise with the least true length that they allow.
-            if low_b[y] > high:
+            if key_b[y] != key_a[x] or row_b[y, 4] > high:
                 break
-            if not lengths_agree(a, b, a1, b1, most):
+            d = la1 - row_b[y, 0]
+            if d * d > va1 + most * row_b[y, 1]:
                 continue
-            if not lengths_agree(a, b, a2, b2, most):
+            d = la2 - row_b[y, 2]
+            if d * d > va2 + most * row_b[y, 3]:
                 continue
+            b1 = entry_b[y]
             w = b.owner[b1]
             if not (only_a[u] or only_b[w]):
-                continue
+                pair = u * size_b + w
+                k = np.searchsorted(known, pair)
+                if k == len(known) or known[k] != pair:
+                    continue
             if not correspond(a, b, a1, b1, tol, 0, partner):
                 continue
             q = b.first[w]

@@ -10,7 +10,15 @@ from numpy.typing import NDArray
 
 from merge.graph import Graph
 
-__all__ = ["breadth_first", "cut", "make_maze", "perturb", "turn"]
+__all__ = [
+    "breadth_first",
+    "cut",
+    "displace",
+    "make_maze",
+    "overlapping",
+    "perturb",
+    "turn",
+]
 
 Ints = NDArray[np.int64]
 
@@ -187,3 +195,95 @@ def turn(graph: Graph, angle: float, rng: np.random.Generator) -> tuple[Graph, I
         c, s = math.cos(angle), math.sin(angle)
         at = at @ np.array([[c, s], [-s, c]])
     return replace(turned, exits=turned.exits + angle, positions=at), order
+
+
+def displace(
+    graph: Graph, sigma: float, rng: np.random.Generator, carry: float = 0.0
+) -> Graph:
+    """Disturb where the vertices are, and measure the lengths there: [K]_ 5.2.1.
+
+    Parameters
+    ----------
+    graph : Graph
+        With positions; the search that made it started at vertex 0.
+    sigma : float
+        Standard deviation of each vertex's displacement in x and in y, in metres.
+    rng : numpy.random.Generator
+        Source of chance.
+    carry : float, optional
+        Share of a vertex's displacement that those found from it get as well, in
+        [0, 1]. So the error propagates outward from the root, never back.
+
+    Returns
+    -------
+    Graph
+        Lengths are those along the edges' directions, at least a tenth of the true
+        ones; no positions.
+
+    Raises
+    ------
+    ValueError
+        If the graph has no positions.
+    """
+    if graph.positions is None:
+        raise ValueError("displace: expected a graph with positions; got None")
+    off = sigma * rng.standard_normal((len(graph), 2))
+    near: list[list[int]] = [[] for _ in range(len(graph))]
+    for u, _, v, _ in graph.edges.tolist():
+        near[u].append(v)
+        near[v].append(u)
+    order, parent = [0], {0: 0}
+    for vertex in order:
+        for other in near[vertex]:
+            if other not in parent:
+                parent[other] = vertex
+                order.append(other)
+                off[other] += carry * off[vertex]
+    at = graph.positions + off
+    u, i, v = graph.edges[:, 0], graph.edges[:, 1], graph.edges[:, 2]
+    angle = graph.exits[graph.first_exit[u] + i]
+    along = np.column_stack([np.cos(angle), np.sin(angle)])
+    lengths = ((at[v] - at[u]) * along).sum(axis=1)
+    return replace(
+        graph,
+        lengths=np.maximum(lengths, 0.1 * graph.lengths),
+        variances=np.full(len(lengths), 2 * sigma**2 + 1e-6),
+        positions=None,
+    )
+
+
+def overlapping(
+    graph: Graph, size: int, overlap: float, rng: np.random.Generator
+) -> tuple[Ints, Ints]:
+    """Choose the vertices of two partial maps that share about so many.
+
+    Parameters
+    ----------
+    graph : Graph
+        The whole, of several times `size` vertices.
+    size : int
+        Vertices of each part.
+    overlap : float
+        Share of them that both parts have, in [0, 1].
+    rng : numpy.random.Generator
+        Draws where the first part starts.
+
+    Returns
+    -------
+    pair of ndarray of int, shape (size,)
+        As `breadth_first` returns them; the second starts where, of a dozen tries
+        outward from the first, the overlap is nearest to what was asked.
+    """
+    one = breadth_first(graph, int(rng.integers(len(graph))), size)
+    inside = set(one.tolist())
+    far = breadth_first(graph, int(one[0]), min(len(graph), 4 * size))
+    low, high = 0, len(far) - 1
+    best, error = one, 1.0 - overlap
+    while low <= high:
+        middle = (low + high) // 2
+        two = breadth_first(graph, int(far[middle]), size)
+        share = len(inside.intersection(two.tolist())) / size
+        if abs(share - overlap) < error:
+            best, error = two, abs(share - overlap)
+        low, high = (middle + 1, high) if share > overlap else (low, middle - 1)
+    return one, best

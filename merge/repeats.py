@@ -21,6 +21,13 @@ if TYPE_CHECKING:
 
 __all__ = ["find_repeats"]
 
+GREAT = 1 / 3
+"""Share of the matched vertices that a repeated part must have to count.
+
+Every building has equal corners and equal small rooms, and they tell its parts apart
+by how they are joined; what is repeated in large cannot do so.
+"""
+
 
 def find_repeats(
     graph: Graph,
@@ -47,8 +54,9 @@ def find_repeats(
     Returns
     -------
     ndarray of bool, shape (K,)
-        True where a connected part of `vertices` with that vertex corresponds to
-        another part of the map, more alike than chance makes it.
+        True where a connected part with that vertex, of at least a third of
+        `vertices`, corresponds to another part of the map, more alike than chance
+        makes it.
     """
     part = lay_out(cut(graph, vertices))
     found = grow_hypotheses(part, layout, replace(options, tolerate_rim=True))
@@ -56,6 +64,7 @@ def find_repeats(
     repeated = np.zeros(len(vertices), bool)
     for h in np.flatnonzero(found.score > limit).tolist():
         pairs = found.pairs(h)
-        if not (vertices[pairs[:, 0]] == pairs[:, 1]).any():
+        elsewhere = not (vertices[pairs[:, 0]] == pairs[:, 1]).any()
+        if elsewhere and len(pairs) >= GREAT * len(vertices):
             repeated[pairs[:, 0]] = True
     return repeated

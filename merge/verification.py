@@ -22,6 +22,8 @@ __all__ = ["Verified", "verify"]
 
 DEVIATIONS = 3.0
 """How far off its predicted place a partner may lie, in standard deviations."""
+ALONE, SURELY_ALONE = 3.0, 8.0
+"""How many times that the next vertex must be off, for a partner and for a clash."""
 ROUNDS = 8
 """An overlay that still grows after so many rounds is left as it is."""
 
@@ -112,7 +114,8 @@ def _look(
     found = cKDTree(at_b).query(place, k=2)
     distance, two = np.asarray(found[0]), np.asarray(found[1])
     # Only where no second vertex can be meant.
-    sure = (distance[:, 0] <= spread) & (distance[:, 1] > 3 * spread)
+    sure = (distance[:, 0] <= spread) & (distance[:, 1] > ALONE * spread)
+    surely = distance[:, 1] > SURELY_ALONE * spread
     taken = np.zeros(len(at_b), bool)
     taken[pairs[:, 1]] = True
     matched, clashes = [], []
@@ -122,7 +125,7 @@ def _look(
         if alike and not taken[w]:
             taken[w] = True
             matched.append((u, w))
-        elif not alike:
+        elif surely[row] and not alike:
             clashes.append((u, w))
     rows = [np.array(found, np.int64).reshape(-1, 2) for found in (matched, clashes)]
     return rows[0], rows[1]

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from topomap.files.map_files import load_map, save_map
     from topomap.files.world_files import load_world, save_world
     from topomap.mapping import Build, build_map
+    from topomap.merging import merge_maps
     from topomap.topological_map import TopologicalMap
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "compare_maps",
     "load_map",
     "load_world",
+    "merge_maps",
     "save_map",
     "save_world",
 ]
@@ -35,6 +37,7 @@ _HOME = {
     "compare_maps": "topomap.comparison",
     "load_map": "topomap.files.map_files",
     "load_world": "topomap.files.world_files",
+    "merge_maps": "topomap.merging",
     "save_map": "topomap.files.map_files",
     "save_world": "topomap.files.world_files",
 }

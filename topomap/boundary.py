@@ -64,7 +64,8 @@ def map_boundary(
     Raises
     ------
     JobError
-        From the running coroutine, where open space ends at a narrow passage.
+        From the running coroutine, where open space ends at a narrow passage, or
+        the robot comes to a corner without having walked a wall.
     """
     yield from move_to_wall(parameters)
     first = (yield from _open_leg(parameters, None)).corner
@@ -89,5 +90,10 @@ def _open_leg(parameters: Parameters, corner: VertexType | None) -> Behaviour[Le
         raise JobError(
             f"a passage not wider than 2 r0 = {2 * parameters.r0:g} m was met "
             f"{leg.length:.2f} m along a wall: wall following needs open space"
+        )
+    if corner is not None and leg.length <= 0:
+        raise JobError(
+            f"a wall of {leg.length:.2f} m was walked to its corner {leg.corner.name}: "
+            "the robot has lost its wall"
         )
     return leg

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from evidence.dempster_shafer import DempsterShaferCloser, PublishedRule
+from evidence.likelihood import LikelihoodCloser, LikelihoodRule
 from evidence.position import least_distance
 from evidence.walls import RelativeError
 from topomap.errors import InputError
@@ -15,9 +16,15 @@ if TYPE_CHECKING:
 
 __all__ = ["CLOSINGS", "make_closer"]
 
-CLOSINGS = ("dempster-shafer", "dempster-shafer-95")
-"""The published rule, with a gate that practically never misses (99.9 %), and
-with the literal one (95 %)."""
+CLOSINGS = (
+    "likelihood",
+    "likelihood-full-lap",
+    "dempster-shafer",
+    "dempster-shafer-95",
+)
+"""The likelihood test, and the one that asks for a whole second lap; the published
+rule, with a gate that practically never misses (99.9 %), and with the literal one
+(95 %)."""
 
 
 def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
@@ -25,8 +32,8 @@ def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
 
     Parameters
     ----------
-    name : {"dempster-shafer", "dempster-shafer-95"}
-        See `CLOSINGS`.
+    name : str
+        One of `CLOSINGS`.
     sigma : float
         Standard deviation of a measured length, as a part of the length.
     parameters : Parameters
@@ -50,5 +57,10 @@ def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
         expected = "a part of the length from 0 to 0.5"
         raise InputError("", "sigma", sigma, expected) from None
     nearest = least_distance(parameters.r0, parameters.r_min, parameters.r_max)
+    if name.startswith("likelihood"):
+        full_lap = name == "likelihood-full-lap"
+        return LikelihoodCloser(
+            error, LikelihoodRule(full_lap=full_lap, r_star=nearest)
+        )
     gate = 0.95 if name.endswith("95") else 0.999
     return DempsterShaferCloser(error, PublishedRule(alpha=gate, r_star=nearest))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from topomap.errors import InputError
-from topomap.files.atomic import write_atomically
+from topomap.files.atomic import check_writable, write_atomically
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from worlds.world import World
 
-__all__ = ["draw_world", "save_figure", "save_picture"]
+__all__ = ["check_picture", "draw_world", "save_figure", "save_picture"]
 
 SUFFIXES = ".svg", ".png", ".pdf"
 SOLID, FREE, EDGE = "#c9ccd1", "#ffffff", "#3a3f47"
@@ -108,11 +108,8 @@ def save_figure(path: str | PathLike[str], fill: Callable[[Figure], None]) -> No
     InputError
         If the suffix is another one, or the file cannot be written.
     """
+    check_picture(path)
     suffix = Path(path).suffix.lower()
-    if suffix not in SUFFIXES:
-        raise InputError(
-            fspath(path), "suffix", suffix, "one of " + ", ".join(SUFFIXES)
-        )
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -126,3 +123,19 @@ def save_figure(path: str | PathLike[str], fill: Callable[[Figure], None]) -> No
         picture = io.BytesIO()
         figure.savefig(picture, format=suffix[1:], dpi=150, metadata=stamp)
     write_atomically(path, picture.getvalue())
+
+
+def check_picture(path: str | PathLike[str]) -> None:
+    """Find out before a long job whether its picture can be kept.
+
+    Raises
+    ------
+    InputError
+        If the suffix is not that of a picture, or the file cannot be written.
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        raise InputError(
+            fspath(path), "suffix", suffix, "one of " + ", ".join(SUFFIXES)
+        )
+    check_writable(path)

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from topomap.errors import InputError
-from topomap.topological_map import TopologicalMap
+from topomap.topological_map import Edge, TopologicalMap, Vertex
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.sparse import csr_array, sparray
-__all__ = ["Embedding", "embed", "embedded"]
+__all__ = ["Embedding", "embed", "embedded", "placed"]
 
 
 EXACT = 1e-4
@@ -86,49 +86,71 @@ def embed(chart: TopologicalMap) -> Embedding:
     >>> float(found.covariances[1, 0, 0].round(4))
     0.005
     """
-    count = len(chart.vertices)
-    anchors = np.array([v.position or (0.0, 0.0) for v in chart.vertices])
-    if not chart.edges:
+    return _embed(chart.vertices, chart.edges)
+
+
+def embedded(chart: TopologicalMap) -> TopologicalMap:
+    """Return the map with the positions and covariances that `embed` finds."""
+    return replace(chart, vertices=placed(chart.vertices, chart.edges))
+
+
+def placed(vertices: tuple[Vertex, ...], edges: tuple[Edge, ...]) -> tuple[Vertex, ...]:
+    """Return vertices with the positions and covariances that `embed` finds.
+
+    For those who make a map: one that is placed first is checked only once.
+
+    Parameters
+    ----------
+    vertices, edges : tuple
+        Of a map that does not contradict itself.
+
+    Returns
+    -------
+    tuple of Vertex
+        In the same order.
+    """
+    found = _embed(vertices, edges)
+    positions, covariances = found.positions.tolist(), found.covariances.tolist()
+    return tuple(
+        Vertex(
+            vertex.id,
+            vertex.type,
+            vertex.exits,
+            vertex.unexplored,
+            (x, y),
+            (tuple(first), tuple(second)),
+        )
+        for vertex, (x, y), (first, second) in zip(
+            vertices, positions, covariances, strict=True
+        )
+    )
+
+
+def _embed(vertices: tuple[Vertex, ...], edges: tuple[Edge, ...]) -> Embedding:
+    count = len(vertices)
+    anchors = np.array([v.position or (0.0, 0.0) for v in vertices])
+    if not edges:
         return Embedding(anchors.reshape(count, 2), np.zeros((count, 2, 2)))
-    index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
-    ends = np.array([(index[e.source], index[e.target]) for e in chart.edges])
+    index = {vertex.id: k for k, vertex in enumerate(vertices)}
+    ends = np.array([(index[e.source], index[e.target]) for e in edges])
     fixed, part = _parts(count, ends)
     free = np.setdiff1d(np.arange(count), fixed)
     place = np.full(count, -1)
     place[free] = np.arange(len(free))
 
-    solution, blocks = _solve(place[ends], *_springs(chart), len(free))
+    solution, blocks = _solve(place[ends], *_springs(edges), len(free))
     positions, covariances = np.zeros((count, 2)), np.zeros((count, 2, 2))
     positions[free], covariances[free] = solution, blocks
     # Springs do not mind where they are: each part is moved to its anchor.
     return Embedding(positions + anchors[fixed][part], covariances)
 
 
-def embedded(chart: TopologicalMap) -> TopologicalMap:
-    """Return the map with the positions and covariances that `embed` finds."""
-    positions, covariances = embed(chart)
-    vertices = tuple(
-        replace(
-            vertex,
-            position=(float(x), float(y)),
-            covariance=(
-                (float(c[0, 0]), float(c[0, 1])),
-                (float(c[1, 0]), float(c[1, 1])),
-            ),
-        )
-        for vertex, (x, y), c in zip(
-            chart.vertices, positions, covariances, strict=True
-        )
-    )
-    return replace(chart, vertices=vertices)
-
-
 def _springs(
-    chart: TopologicalMap,
+    edges: tuple[Edge, ...],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return for each edge its way (E, 2) and its stiffness (E, 2, 2)."""
     rows = []
-    for k, edge in enumerate(chart.edges):
+    for k, edge in enumerate(edges):
         opposite = math.remainder(
             edge.target_exit - edge.source_exit - math.pi, math.tau
         )

@@ -29,6 +29,10 @@ class InputError(ValueError):
         self.expected = expected
         """What would have been accepted."""
 
+    def __reduce__(self) -> tuple[type[InputError], tuple[str, str, object, str]]:
+        """Let it come back from another process."""
+        return type(self), (self.source, self.field, self.value, self.expected)
+
 
 class JobError(RuntimeError):
     """A job that failed on good input: exit code 3, with the reason."""

@@ -7,7 +7,7 @@ from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from topomap.boundary import TURN
-from topomap.embedding import embedded
+from topomap.embedding import placed
 from topomap.headings import angle_of, quarter_of
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 
@@ -61,7 +61,7 @@ def fold(walk: Walk, parameters: Parameters, sigma: float) -> TopologicalMap:
         _edge(walk.legs[k :: period or len(walk.legs)], k, count, leaving[k], sigma)
         for k in range(min(len(walk.legs), count))
     )
-    return embedded(TopologicalMap(vertices, edges, parameters))
+    return TopologicalMap(placed(vertices, edges), edges, parameters)
 
 
 def _edge(

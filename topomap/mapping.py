@@ -83,7 +83,7 @@ def build_map(
     sigma: float = 0.06,
     start: Pose | None = None,
     parameters: Parameters | None = None,
-    closing: str | LoopCloser = "dempster-shafer",
+    closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
 ) -> Build:
     """Set a robot down in a world and let it map the boundary it first meets.
@@ -103,8 +103,9 @@ def build_map(
         Where the robot is set down. Chosen at random where None.
     parameters : Parameters, optional
         The lengths the robot keeps; the body's own where None.
-    closing : {"dempster-shafer"} or LoopCloser
-        Decides when the robot has come round.
+    closing : str or LoopCloser
+        Decides when the robot has come round; names as in
+        `topomap.closers.CLOSINGS`.
     max_walls : int
         The loop is given up as open after so many walls.
 
@@ -120,7 +121,7 @@ def build_map(
     WorldError
         If the world is not rectilinear, too narrow, or the start is not free.
     JobError
-        If the robot is stuck, bumps, or loses its wall.
+        If the robot is stuck or loses its wall.
 
     Notes
     -----

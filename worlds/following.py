@@ -14,7 +14,8 @@ __all__ = ["follow"]
 BEHIND = 1 / 3
 """How far behind the start remembered readings still count, in parts of r0."""
 START = 1 / 6
-"""A change less than this past the start is the wall's beginning, in parts of r0."""
+"""A change less than this past the start of the run, or past the place where the
+wall was taken up, is the wall's beginning, in parts of r0."""
 STRAIGHT = 0.1
 """So far the robot goes straight on before it steers by the wall, in parts of r0."""
 CLOSEST = 0.1
@@ -85,16 +86,23 @@ class _Run:
         self._settle_start()
 
     def _settle_start(self) -> None:
-        """Forget a change at the very start if there is a wall beside after it."""
+        """Forget a change at the very start if there is a wall beside after it.
+
+        A spot of light that is not wholly on the wall yet shows it too far away.
+        """
         change = self.track.change
         beside = self.own(self.robot.left, self.robot.right)
         if (
             change is not None
-            and change.place < self.start + START * self._r0
+            and change.place < self._begun() + START * self._r0
             and beside <= self.track.reach
         ):
             self.track = self._new_track()
-            self._replay([row for row in self.robot.trace if row[0] >= change.began])
+            self._replay([row for row in self.robot.trace if row[0] >= change.settled])
+
+    def _begun(self) -> float:
+        """Return what the odometer showed abeam of where the wall was taken up."""
+        return max(self.start, self.track.taken_up + self.track.mount)
 
     def _new_track(self) -> WallTrack:
         robot = self.robot
@@ -165,7 +173,7 @@ class _Run:
         robot, track = self.robot, self.track
         lean = self._sense * robot.lean
         wish = 0.0
-        if track.is_on_wall and robot.odometer - self.start > STRAIGHT * self._r0:
+        if track.is_on_wall and robot.odometer - self._begun() > STRAIGHT * self._r0:
             offset = track.distance / self._r0 - 1.0
             wish = -min(max(offset, -0.2), 0.2)
         robot.drive(speed, self._sense * min(max(4.0 * (wish - lean), -1.0), 1.0))

@@ -47,6 +47,8 @@ CONTROLLERS: Mapping[type, Callable[[Robot, Any], Control[Outcome]]] = {
 }
 PATIENCE = 1800.0
 """Seconds after which a primitive that has not ended is stuck."""
+BUMPS = 3
+"""After so many bumps within r0 of way the robot is stuck."""
 RECOIL = 1 / 6
 """How far the robot goes back from what it touched, in parts of r0."""
 
@@ -130,6 +132,8 @@ class PhysicalBody:
         self._start = 0.0
         self._since = 0
         self._is_recoiling = False
+        self._bumps = 0
+        self._bumped_at = -math.inf
 
     @property
     def parameters(self) -> Parameters:
@@ -228,10 +232,15 @@ class PhysicalBody:
     def _recoil(self) -> Control[Outcome]:
         """Go back from what was touched; it is STUCK if that does not help."""
         robot = self._robot
+        if robot.odometer - self._bumped_at > self._parameters.r0:
+            self._bumps = 0
+        self._bumps += 1
+        self._bumped_at = robot.odometer
         way = -math.copysign(RECOIL * self._parameters.r0, robot.speed_asked)
         yield from stop(robot)
         yield from go(robot, way)
-        return self._outcome(Reason.STUCK if robot.disc.touching else Reason.BUMPED)
+        is_stuck = robot.disc.touching or self._bumps >= BUMPS
+        return self._outcome(Reason.STUCK if is_stuck else Reason.BUMPED)
 
     def _outcome(self, reason: Reason) -> Outcome:
         distance = max(self._robot.odometer - self._start, 0.0)

@@ -37,7 +37,7 @@ class SeenWall:
 
 
 def wall_of_scan(
-    scan: Sequence[tuple[float, float]], error: float, side: Side
+    scan: Sequence[tuple[float, float]], error: float, side: Side, rim: float = 0.0
 ) -> SeenWall | None:
     """Find the wall that a robot on this side should stand along.
 
@@ -49,13 +49,16 @@ def wall_of_scan(
         Standard deviation of an inverse range, in 1 / metres.
     side : Side
         Which side of the robot the scan looked to.
+    rim : float
+        Readings so near the scan's ends, in radians, tell no range: where a wall
+        ends, part of the spot of light is already past its edge.
 
     Returns
     -------
     SeenWall or None
         The only wall; the nearer of two that meet in an inner corner; of two that
         meet in an outer corner the one that the robot leaves behind, so that it
-        goes on around the corner. None with fewer than six readings.
+        goes on around the corner. None with fewer than six readings off the rims.
 
     Notes
     -----
@@ -71,11 +74,13 @@ def wall_of_scan(
     >>> round(wall.normal, 9), round(wall.distance, 9)
     (0.0, 0.5)
     """
+    whole = scan
+    scan = [(a, r) for a, r in whole if whole[0][0] + rim <= a <= whole[-1][0] - rim]
     if len(scan) < FEWEST:
         return None
     points = [(math.cos(a), math.sin(a), 1.0 / r) for a, r in scan]
     one, misfit = _fit(points, error)
-    one = _with_end(one, scan, side)
+    one = _with_end(one, whole, side)
     splits = range(FEWEST, len(points) - FEWEST + 1)
     pairs = [(_fit(points[:k], error), _fit(points[k:], error), k) for k in splits]
     if not pairs or misfit <= 2.0 * (len(points) - 2) * error * error:

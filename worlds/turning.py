@@ -111,7 +111,7 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
         if robot.is_fresh and (reading := robot.eyes.beam) < farthest:
             scan.append((robot.turned - axis, reading))
     yield from stop(robot)
-    wall = wall_of_scan(scan, _inverse_error(robot), side)
+    wall = wall_of_scan(scan, _inverse_error(robot), side, 2 * ranger.cone)
     if wall is None:
         yield from spin(robot, axis - robot.turned)
         return math.inf

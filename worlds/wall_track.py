@@ -21,6 +21,8 @@ CONFIRM = 4
 """So many misfits in a row that agree are a step of the wall."""
 GONE = 3
 """So many in a row that are too far are the wall's end."""
+SPOT = 1.5
+"""They agree for so many half widths of the spot on the wall."""
 SEED = 3
 """So many readings that agree are a wall."""
 
@@ -37,6 +39,8 @@ class Change:
     """Distance of what follows, in metres from the centre; may be infinite."""
     began: float
     """What the odometer showed when the readings first told of it, in metres."""
+    settled: float
+    """What it showed when they began to agree on what follows, in metres."""
 
 
 class WallTrack:
@@ -68,6 +72,8 @@ class WallTrack:
         self._least = 0.1 * parameters.r0
         self._pdd = self._pdq = 0.0
         self._odometer = self._turned = 0.0
+        self.taken_up = math.inf
+        """What the odometer showed when the wall was found, in metres."""
         self._misfits: list[tuple[float, float]] = []
         self._seeds: list[float] = []
         self.reach = parameters.r_max + self._least
@@ -111,6 +117,7 @@ class WallTrack:
             and mean <= self.reach
             and spread <= self._tolerance(mean)
         ):
+            self.taken_up = self._odometer
             self.distance = mean - self.mount * self.lean
             self._pdd = self._variance(mean) / SEED
             self._pdd += self.mount**2 * self.lean_variance
@@ -139,21 +146,29 @@ class WallTrack:
     def _decide(self, expected: float) -> None:
         """Say what the misfits are, once they are settled, and where they began.
 
-        Behind an edge the beam slides down the wall's end face: for some
-        centimetres the readings grow before they tell what is there.
+        Behind an edge the beam slides down the wall's end face, or its spot lies
+        on two walls at once: for some centimetres the readings do not tell yet
+        what is there. Those that tell of a step agree for longer.
         """
         misfits = self._misfits
+        span = max(0.5 * self._least, SPOT * self._cone * (expected - self._offset))
+        since = misfits[-1][0] - span
         last = [reading for _, reading in misfits[-CONFIRM:]]
         if min(last[-GONE:]) - expected > self._parameters.least_recess:
             reason = Reason.RECEDED
             is_settled = len(last) >= GONE
+            settled = misfits[-len(last)][0]
         else:
             reason = Reason.STEPPED
+            recent = sum(place >= since for place, _ in misfits)
+            alike = misfits[-max(recent, CONFIRM) :]
+            ranges = [reading for _, reading in alike]
             is_settled = (
-                len(last) == CONFIRM
-                and max(last) - min(last) < self._tolerance(last[-1])
-                and misfits[-1][0] - misfits[-CONFIRM][0] > 0.5 * self._least
+                len(alike) >= CONFIRM
+                and misfits[0][0] <= since
+                and max(ranges) - min(ranges) < self._tolerance(last[-1])
             )
+            settled = alike[0][0]
         if is_settled:
             found = sorted(last[-3:])[1] if len(last) > 2 else last[-1]
             spot = self._cone * (min(expected, found) - self._offset)
@@ -162,7 +177,7 @@ class WallTrack:
             is_dark = last[-1] == math.inf or last[-1] - last[-2] > 2 * self._least
             began = misfits[0][0]
             place = began + self.mount + (-spot if is_dark else spot)
-            self.change = Change(reason, place, found, began)
+            self.change = Change(reason, place, found, began, settled)
 
     def _tolerance(self, reading: float) -> float:
         """Return by how much readings of one wall may differ, in metres."""

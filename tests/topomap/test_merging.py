@@ -124,13 +124,8 @@ def test_command_writes_map_picture_and_one_json_object(tmp_path, capsys):
     out, picture = tmp_path / "merged.json", tmp_path / "merge.svg"
     code = main(
         [
-            "merge",
-            *write(tmp_path, *halves),
-            "-o",
-            str(out),
-            "--json",
-            "--plot",
-            str(picture),
+            *("merge", *write(tmp_path, *halves), "-o", str(out)),
+            *("--json", "--plot", str(picture)),
         ]
     )
     told = json.loads(capsys.readouterr().out)

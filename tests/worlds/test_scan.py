@@ -82,6 +82,16 @@ def test_a_wall_that_ended_before_the_robot_came_abeam_is_noticed(side, y):
     assert wall.behind == pytest.approx(0.1, abs=0.02)
 
 
+def test_readings_past_a_walls_edge_tell_nothing_of_its_direction():
+    seen = ranges_to([(0.3, -0.1, 0.3, 3)], ANGLES)
+    sliding = [(a, r * (1.0 + 0.4 * max(0.0, -a - 0.2))) for a, r in seen]
+    edge = [(seen[0][0] - 0.03 * k, 0.36 + 0.12 * k) for k in (3, 2, 1)]
+    for scan in (edge + seen, edge + sliding):
+        wall = wall_of_scan(scan, 0.02, Side.RIGHT, rim=0.13)
+        assert wall.normal == pytest.approx(0.0, abs=0.03)
+        assert wall.distance == pytest.approx(0.3, abs=0.01)
+
+
 def test_hardly_any_reading_is_no_wall():
     scan = [(0.1 * k, 0.3) for k in range(5)]
     assert wall_of_scan(scan, 0.05, Side.LEFT) is None

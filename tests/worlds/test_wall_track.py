@@ -20,10 +20,10 @@ def track_for(side=Side.RIGHT, profile=GENERIC):
     return track
 
 
-def drive(track, range_at, way, rng=None, start=0.0):
+def drive(track, range_at, way, rng=None, start=0.0, step=STEP):
     """Let a track see `range_at(place of the ranger)` on a straight way."""
-    for k in range(round(way / STEP)):
-        place = start + k * STEP
+    for k in range(round(way / step)):
+        place = start + k * step
         reading = range_at(place + MOUNT)
         if rng is not None and reading < math.inf:
             reading += (0.001 + 0.05 * reading**2) * rng.standard_normal()
@@ -81,6 +81,28 @@ def test_ranges_that_slide_down_an_end_face_are_no_step():
     track = track_for()
     drive(track, lambda s: 0.3 if s < 0.5 else max(0.3, (s - 0.5) / cone), 1.0)
     assert track.change.reason is Reason.RECEDED
+
+
+@pytest.mark.parametrize("step", [0.003, 0.0045, 0.0055, 0.007, 0.008])
+def test_a_spot_on_two_walls_is_no_step(step):
+    near, far = 0.36, 0.61
+    half = near * math.tan(GENERIC.rangers[1].cone)
+
+    def range_at(s):
+        rays = [near if s + shift < 0.5 else far for shift in (-half, 0.0, half)]
+        return 3 / sum(1 / ray for ray in rays)
+
+    track = track_for()
+    drive(track, range_at, 1.0, step=step)
+    assert track.change.reason is Reason.RECEDED
+    assert track.change.place == pytest.approx(0.5, abs=0.02)
+
+
+def test_a_step_is_noticed_at_any_speed():
+    for step in (0.002, 0.004, 0.016, 0.032):
+        track = track_for()
+        drive(track, lambda s: 0.3 if s < 0.5 else 0.42, 1.0, step=step)
+        assert track.change.reason is Reason.STEPPED
 
 
 def test_no_wall_in_reach_is_no_wall():

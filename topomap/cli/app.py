@@ -6,9 +6,11 @@ from typing import Annotated
 
 import typer
 
+from topomap.cli.allocate import allocate
 from topomap.cli.build import build
 from topomap.cli.compare import compare
 from topomap.cli.demo import demo
+from topomap.cli.explore_grid import explore_grid
 from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
 from topomap.cli.show import show
@@ -28,6 +30,8 @@ app.command()(build)
 app.command()(compare)
 app.command()(merge)
 app.command()(show)
+app.command()(allocate)
+app.command()(explore_grid)
 app.command()(reproduce)
 
 

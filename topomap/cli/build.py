@@ -25,13 +25,13 @@ def build(
     sigma: Annotated[
         float, typer.Option(help="Error of a measured length, as a part of it.")
     ] = 0.06,
-    seed: Annotated[int, typer.Option(help="Seed of all that is drawn.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of all that is drawn.")] = 0,
     start: Annotated[
         str | None, typer.Option(help="X,Y,DEG where the robot is set down.")
     ] = None,
     closing: Annotated[
         str, typer.Option(help="What decides that the loop is closed.")
-    ] = "dempster-shafer",
+    ] = "likelihood",
     max_walls: Annotated[
         int, typer.Option(help="Give the loop up as open after so many walls.")
     ] = 5000,
@@ -46,16 +46,24 @@ def build(
     import numpy as np
 
     from topomap.bodies import body_parameters
-    from topomap.cli.console import say, show_json, watched
+    from topomap.cli.console import naming, say, show_json, watched
     from topomap.closers import make_closer
+    from topomap.drawing import check_picture
     from topomap.errors import JobError
+    from topomap.files.atomic import check_writable
     from topomap.files.map_files import save_map
     from topomap.files.world_files import load_world
     from topomap.mapping import build_map
 
     place = load_world(world)
+    check_writable(output)
+    if plot is not None:
+        check_picture(plot)
     began = time.perf_counter()
-    with watched(make_closer(closing, sigma, body_parameters(body))) as closer:
+    with (
+        naming(world),
+        watched(make_closer(closing, sigma, body_parameters(body))) as closer,
+    ):
         built = build_map(
             place,
             np.random.default_rng(seed),

@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from evidence.walls import Decision, LoopCloser, Wall
 
-__all__ = ["Progress", "progress", "say", "show_json", "watched"]
+__all__ = ["Progress", "naming", "progress", "say", "show_json", "watched"]
 
 
 def say(text: str) -> None:
@@ -48,6 +50,17 @@ class Progress:
         """Say where the job is now."""
         if self._show is not None:
             self._show(text)
+
+
+@contextmanager
+def naming(path: Path) -> Iterator[None]:
+    """Name the world's file in what is found wrong with the world."""
+    from worlds.world import WorldError
+
+    try:
+        yield
+    except WorldError as error:
+        raise WorldError(f"{path}: {error.field}", error.fault) from None
 
 
 @contextmanager

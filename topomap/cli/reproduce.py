@@ -21,7 +21,7 @@ def reproduce(
     trials: Annotated[
         int | None, typer.Option(help="Trials a cell; each experiment has its own.")
     ] = None,
-    seed: Annotated[int, typer.Option(help="Root of all seeds.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Root of all seeds.")] = 0,
     workers: Annotated[
         int | None, typer.Option(help="Processes; one a core where not given.")
     ] = None,

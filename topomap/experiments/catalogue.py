@@ -13,7 +13,13 @@ if TYPE_CHECKING:
 
 __all__ = ["catalogue", "find"]
 
-MODULES = ("topomap.experiments.mapping",)
+MODULES = (
+    "topomap.experiments.closing",
+    "topomap.experiments.exploring",
+    "topomap.experiments.floor_plans",
+    "topomap.experiments.mapping",
+    "topomap.experiments.merging",
+)
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from topomap.errors import JobError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
@@ -15,15 +15,18 @@ if TYPE_CHECKING:
 
     from worlds.world import World
 
-__all__ = ["EXPERIMENTS", "map_once"]
+__all__ = ["EXPERIMENTS", "MEANS", "map_once"]
 
 
 def map_once(
-    world: World, rng: np.random.Generator, body: str, sigma: float
+    world: World, rng: np.random.Generator, body: str, sigma: float, **options: Any
 ) -> Tallies:
-    """Build one map and say what came of it, as tallies of one trial."""
+    """Build one map and say what came of it, as tallies of one trial.
+
+    The options are those of `build_map`.
+    """
     try:
-        built = build_map(world, rng, body=body, sigma=sigma)
+        built = build_map(world, rng, body=body, sigma=sigma, **options)
     except JobError as error:
         return {f"failed: {type(error.__cause__ or error).__name__}": 1}
     tallies: Tallies = {

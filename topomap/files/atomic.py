@@ -8,7 +8,7 @@ from pathlib import Path
 
 from topomap.errors import InputError
 
-__all__ = ["make_folder", "write_atomically"]
+__all__ = ["check_writable", "make_folder", "write_atomically"]
 
 
 def write_atomically(path: str | PathLike[str], content: str | bytes) -> None:
@@ -37,6 +37,29 @@ def write_atomically(path: str | PathLike[str], content: str | bytes) -> None:
         raise InputError(
             fspath(path), "", None, f"a file that can be written: {reason}"
         ) from None
+
+
+def check_writable(path: str | PathLike[str]) -> None:
+    """Find out before a long job whether its result can be kept.
+
+    Raises
+    ------
+    InputError
+        If the file's folder is not there or cannot be written to, or the path
+        is a folder.
+    """
+    target = Path(path).resolve()
+    reason = ""
+    if not target.parent.is_dir():
+        reason = "No such file or directory"
+    elif target.is_dir():
+        reason = "Is a directory"
+    elif not os.access(target.parent, os.W_OK):
+        reason = "Permission denied"
+    if reason:
+        raise InputError(
+            fspath(path), "", None, f"a file that can be written: {reason}"
+        )
 
 
 def _write(path: Path, data: bytes) -> None:

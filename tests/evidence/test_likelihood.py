@@ -1,0 +1,264 @@
+"""The likelihood test: exact where the odometry is, right or undecided elsewhere."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy import integrate, stats
+
+from evidence import LikelihoodCloser, LikelihoodRule, RelativeError, Wall
+from evidence.tracking import _log_marginal, new_track, restart, step
+from evidence.trials import likelihood_trials
+from tests.evidence.shapes import CLASSES, office, spiral, square, twins
+from tests.evidence.tables import walks
+from tests.evidence.test_dempster_shafer import QUARTER, closed, walked
+
+
+@settings(max_examples=30, deadline=None)
+@given(st.integers(0, 10**6), st.sampled_from(sorted(set(CLASSES) - {"large", "grid"})))
+def test_exact_lengths_close_at_once_and_rightly(seed, name):
+    lengths, turns = CLASSES[name](np.random.default_rng(seed))
+    decisions = walked(LikelihoodCloser(RelativeError(0.0)), lengths, turns)
+    assert [d.period for d in decisions] == [None] * (len(lengths) - 1) + [len(lengths)]
+    assert decisions[-1].error_probability < 1e-4
+
+
+@pytest.mark.parametrize("rule", [LikelihoodRule(), LikelihoodRule(full_lap=True)])
+def test_compiled_loop_decides_like_the_library_walk_by_walk(rule):
+    rng = np.random.default_rng(6)
+    for name in ("rectangle", "small", "spiral", "comb", "twins"):
+        shape = CLASSES[name](rng)
+        corners = len(shape[0])
+        for sigma in (0.0, 0.05, 0.2):
+            errors = sigma * rng.standard_normal((4, 5 * corners))
+            starts = rng.integers(corners, size=4)
+            lengths, kinds, turns = walks(shape, starts, 5, errors)
+            periods, after, _ = likelihood_trials(lengths, kinds, turns, sigma, rule)
+            for t in range(4):
+                closer = LikelihoodCloser(RelativeError(sigma), rule)
+                assert closed(closer, lengths[t], kinds[t]) == (periods[t], after[t])
+
+
+def rates(shape_of, sigma, worlds, runs, told=1.0, rule=None, laps=4):
+    """Return how many were right, wrong, undecided, and the median extra laps."""
+    rng = np.random.default_rng(21)
+    counts, extra = np.zeros(3, dtype=int), []
+    for _ in range(worlds):
+        shape = shape_of(rng)
+        corners = len(shape[0])
+        errors = sigma * rng.standard_normal((runs, laps * corners))
+        starts = rng.integers(corners, size=runs)
+        walk = walks(shape, starts, laps, errors)
+        found, after, _ = likelihood_trials(
+            *walk, told * sigma, rule or LikelihoodRule()
+        )
+        right = found == corners
+        counts += [right.sum(), (~right & (found > 0)).sum(), (found == 0).sum()]
+        extra.extend(after[right] / corners - 1)
+    return counts, np.median(extra)
+
+
+@pytest.mark.parametrize("name", ["small", "medium", "spiral", "comb", "stairs"])
+def test_all_loops_are_closed_rightly(name):
+    (right, wrong, undecided), _ = rates(CLASSES[name], 0.2, 10, 50, laps=8)
+    assert (right, wrong, undecided) == (500, 0, 0)
+
+
+def test_equal_rooms_do_not_deceive():
+    (right, wrong, undecided), laps = rates(office, 0.1, 10, 50)
+    assert (right, wrong, undecided) == (500, 0, 0)
+    assert laps < 1.0
+
+
+def test_squares_need_some_laps():
+    (right, wrong, undecided), laps = rates(square, 0.1, 10, 50, laps=16)
+    assert (right, wrong, undecided) == (500, 0, 0)
+    assert 1 < laps < 5
+
+
+def test_full_lap_rule_waits_for_every_wall_to_repeat():
+    rule = LikelihoodRule(full_lap=True)
+    (right, wrong, undecided), laps = rates(twins, 0.1, 10, 50, rule=rule)
+    assert (right, wrong, undecided) == (500, 0, 0)
+    assert laps >= 1.0
+
+
+@pytest.mark.parametrize("told", [0.5, 0.7, 1.5, 2.0])
+def test_wrong_sigma_is_seen_through(told):
+    counts, _ = rates(CLASSES["medium"], 0.1, 10, 50, told=told)
+    assert counts.tolist() == [500, 0, 0]
+
+
+def test_sigma_is_estimated_from_repeated_walls():
+    rng = np.random.default_rng(1)
+    lengths, turns = CLASSES["medium"](rng)
+    rule = LikelihoodRule()
+    for told, expected in ((0.05, 0.1), (0.2, 0.1)):
+        track = new_track(100, rule.row(told), rule.log_prior())
+        restart(track, int(turns[-1] > 0))
+        for i in range(100):
+            measured = lengths[i % 20] * (1 + 0.1 * rng.standard_normal())
+            turn = turns[i % 20]
+            step(track, measured, 0.0, int(turn > 0), turn * QUARTER)
+        values = told * 2.0 ** (np.arange(-2, 3) / 2)
+        assert track.scale[3] @ values == pytest.approx(expected, rel=0.15)
+
+
+def test_stated_error_probability_is_honest():
+    # Where it says 1 in 10, it must not be wrong more often: spirals, the worst case.
+    rule = LikelihoodRule(epsilon=0.1)
+    (right, wrong, _), _ = rates(spiral, 0.2, 20, 50, rule=rule)
+    assert wrong / (right + wrong) < 0.1
+
+
+def test_outliers_and_a_wrong_corner_do_not_hide_the_loop():
+    rng = np.random.default_rng(2)
+    lengths, turns = CLASSES["medium"](rng)
+    kinds = ["INT" if turn > 0 else "EXT" for turn in turns]
+    closer = LikelihoodCloser(RelativeError(0.05))
+    closer.begin(kinds[-1], turns[-1] * QUARTER)
+    for i in range(60):
+        length = lengths[i % 20] * (1 + 0.05 * rng.standard_normal())
+        if i == 22:
+            length *= 3
+        kind = "TERM" if i == 24 else kinds[i % 20]
+        decision = closer.observe(Wall(length, kind, turns[i % 20] * QUARTER))
+    assert decision.period == 20
+    # Once against the lap before, once against the lap after.
+    assert "20 of its walls met again, 2 corners seen differently" in decision.reason
+
+
+def test_what_was_accepted_is_taken_back_when_refuted():
+    rng = np.random.default_rng(3)
+    lengths, turns = CLASSES["medium"](rng)
+    closer = LikelihoodCloser(RelativeError(0.05))
+    decisions = walked(closer, np.tile(lengths, 2), np.tile(turns, 2))
+    assert decisions[-1].period == 20
+    for _ in range(8):
+        decision = closer.observe(Wall(7.0, "EXT", -QUARTER))
+    assert decision.period is None
+
+
+def test_lengths_alone_can_take_it_back():
+    rng = np.random.default_rng(3)
+    lengths, turns = CLASSES["medium"](rng)
+    closer = LikelihoodCloser(RelativeError(0.05))
+    decisions = walked(closer, np.tile(lengths, 2), np.tile(turns, 2))
+    assert decisions[-1].period == 20
+    for i in range(20):
+        kind = "INT" if turns[i] > 0 else "EXT"
+        wall = Wall(lengths[i] * (3, 0.3)[i % 2], kind, turns[i] * QUARTER)
+        decision = closer.observe(wall)
+        if decision.period is None:
+            break
+    # Given up while it lives, since the open loop has become likelier.
+    assert decision.period is None
+    assert decision.hypotheses[0].period == 20
+    assert decision.hypotheses[0].correct < 0.5
+
+
+def test_undecided_walks_say_so_and_why():
+    decisions = walked(LikelihoodCloser(RelativeError(0.1)), [4, 3, 4, 3], [1] * 4)
+    assert decisions[0].reason == "after 1 walls no vertex can be the start"
+    assert decisions[-1].period is None
+    assert decisions[-1].error_probability > 0.1
+    assert "after 4 walls the loop may have 4: posterior error" in decisions[-1].reason
+    assert sum(h.correct for h in decisions[-1].hypotheses) <= 1
+
+
+def test_walks_may_be_longer_than_the_room_first_made():
+    lengths, turns = [4.0, 3.0, 2.0, 3.0, 2.0, 6.0], [1, 1, -1, 1, 1, 1]
+    rng = np.random.default_rng(0)
+    measured = np.tile(lengths, 30) * (1 + 0.1 * rng.standard_normal(180))
+    decisions = walked(LikelihoodCloser(RelativeError(0.1)), measured, turns * 30)
+    assert decisions[-1].period == 6
+
+
+@pytest.mark.parametrize(
+    # Where the robot heads north, left is west; where west, south.
+    ("lengths", "shifted"),
+    [([4.5, 3.0, 4.0, 3.0], 1), ([4.0, 3.0, 4.0, 2.5], 2)],
+)
+def test_shifts_count_on_the_way_round(lengths, shifted):
+    found = []
+    for shift in (0.0, 0.5):
+        closer = LikelihoodCloser(RelativeError(0.0))
+        closer.begin("INT", QUARTER)
+        for i, length in enumerate(lengths):
+            side = shift if i == shifted else 0.0
+            decision = closer.observe(Wall(length, "INT", QUARTER, side))
+        found.append(decision.period)
+    assert found == [None, 4]
+
+
+def log_marginal(readings, sigma):
+    """Return log of the integral over L of prod N(l; L, sigma L) dL / L."""
+    centre = np.mean(readings)
+
+    def integrand(length):
+        return np.prod(stats.norm.pdf(readings, length, sigma * length)) / length
+
+    area, _ = integrate.quad(
+        integrand, centre / 5, centre * 5, points=[centre], limit=500
+    )
+    return math.log(area)
+
+
+@given(
+    st.lists(st.floats(0.85, 1.2), min_size=2, max_size=5),
+    st.floats(0.05, 0.2),
+    st.floats(0.5, 10),
+)
+@settings(max_examples=30, deadline=None)
+def test_marginal_of_readings_is_the_integral(factors, sigma, scale):
+    readings = scale * np.array(factors)
+    found = _log_marginal(
+        len(readings), float(readings @ readings), readings.sum(), sigma
+    )
+    assert found == pytest.approx(log_marginal(readings, sigma), abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "message"),
+    [
+        ("epsilon", 0.0, r"epsilon must be in \(0, 1\); got 0.0"),
+        ("hazard", 1.0, r"hazard must be in \(0, 1\); got 1.0"),
+        ("outlier", -1.0, r"outlier must be in \(0, 1\); got -1.0"),
+        ("misseen", math.nan, r"misseen must be in \(0, 1\); got nan"),
+        ("doubt", -1.0, "doubt must be finite and not negative; got -1.0"),
+        ("r_star", 0.0, "r_star must be above 0 metres; got 0.0"),
+    ],
+)
+def test_bad_options_are_refused(field, value, message):
+    with pytest.raises(ValueError, match=message):
+        LikelihoodRule(**{field: value})
+
+
+def test_any_number_of_kinds_of_corner_is_borne():
+    closer = LikelihoodCloser(RelativeError(0.1))
+    closer.begin("0", QUARTER)
+    for _ in range(4):
+        for i in range(40):
+            turn = 2 * math.pi / 40 * (1 + 0.5 * math.cos(i))
+            decision = closer.observe(Wall(1.0 + i % 7, str(i), turn))
+    assert decision.period is None or decision.period == 40
+    assert len(set(closer._symbols.values())) == 16
+
+
+@pytest.mark.parametrize(
+    ("symbols", "turns", "message"),
+    [
+        (np.full((1, 3), 16), np.ones((1, 2)), "symbols must be in 0 to 15; got 16 to"),
+        (np.zeros((1, 2), int), np.ones((1, 2)), r"shapes .*; got \(1, 2\), \(1, 2\)"),
+    ],
+)
+def test_bad_rows_are_refused(symbols, turns, message):
+    with pytest.raises(ValueError, match=message):
+        likelihood_trials(np.ones((1, 2)), symbols, turns, 0.1, LikelihoodRule())
+
+
+def test_walls_before_the_beginning_are_refused():
+    with pytest.raises(ValueError, match="begin must be called before observe"):
+        LikelihoodCloser(RelativeError(0.1)).observe(Wall(1.0, "INT", QUARTER))

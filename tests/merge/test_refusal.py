@@ -1,0 +1,220 @@
+"""Where the maps fit in several ways, or only by chance, the merge is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+from merge.chance import false_merge_probability
+from merge.graph import Graph
+from merge.layout import lay_out
+from merge.makers import cut, make_maze, perturb, turn
+from merge.options import Options
+from merge.pairwise import match
+from merge.repeats import find_repeats
+
+E, N, W, S = 0.0, math.pi / 2, math.pi, 3 * math.pi / 2
+BACK = {E: W, N: S, W: E, S: N}
+
+
+def drawn(points, edges):
+    """Make a map of named points and [(name, way, name)]."""
+    names = list(points)
+    exits = {name: [] for name in names}
+    for u, way, v in edges:
+        exits[u].append(way)
+        if v is not None:
+            exits[v].append(BACK[way])
+    exits = {name: sorted(ways) for name, ways in exits.items()}
+    edges = [edge for edge in edges if edge[2] is not None]
+    rows = [
+        (names.index(u), exits[u].index(w), names.index(v), exits[v].index(BACK[w]))
+        for u, w, v in edges
+    ]
+    lengths = [math.dist(points[u], points[v]) for u, _, v in edges]
+    return Graph.of(
+        types=[len(exits[name]) for name in names],
+        exits=list(exits.values()),
+        edges=rows,
+        lengths=lengths,
+        sigmas=[0.03 * length for length in lengths],
+    )
+
+
+def corridor(first, last, rooms=12):
+    """Return rooms first to last of a corridor of equal rooms along the x axis."""
+    points, edges = {}, []
+    for k in range(first, last):
+        x = 4.0 * k
+        points |= {
+            ("door", k): (x, 0.0),
+            ("room", k): (x, 3.0),
+            ("corner", k): (x + 2.5, 3.0),
+        }
+        edges += [
+            (("door", k), N, ("room", k)),
+            (("room", k), E, ("corner", k)),
+        ]
+        if k + 1 < last:
+            edges.append((("door", k), E, ("door", k + 1)))
+        elif k + 1 < rooms:
+            edges.append((("door", k), E, None))
+        if k == first and k > 0:
+            edges.append((("door", k), W, None))
+    return drawn(points, edges)
+
+
+def test_equal_rooms_along_a_corridor_are_refused_however_many_match():
+    rng = np.random.default_rng(1)
+    a, b = corridor(1, 7), corridor(3, 9)
+    found = match(perturb(a, 0.02, rng), perturb(b, 0.02, rng))
+    assert not found.accepted
+    assert found.reason
+
+
+def test_a_maze_of_unequal_cells_lies_on_itself_in_one_way():
+    rng = np.random.default_rng(1)
+    whole = make_maze(5, 5, np.random.default_rng(3))
+    a, b = perturb(whole, 0.02, rng), perturb(whole, 0.02, rng)
+    found = match(a, b)
+    assert found.accepted
+    assert (found.pairs[:, 0] == found.pairs[:, 1]).all()
+
+
+def rotunda():
+    """Return a building that looks the same after half a turn."""
+    half = make_maze(4, 6, np.random.default_rng(8))
+    order = np.arange(len(half))
+    at = half.positions
+    south = np.lexsort((at[:, 0], at[:, 1]))[0]
+    # A second copy, turned by half a turn about a door south of the first corner.
+    free = [way for way in (S,) if not np.isclose(half.exits_of(south), way).any()]
+    assert free
+    exits = [half.exits_of(v).tolist() for v in order]
+    exits[south].append(S)
+    twice = [[(angle + math.pi) % math.tau for angle in ways] for ways in exits]
+    size = len(half)
+    edges = half.edges.tolist()
+    edges += [(u + size, i, v + size, j) for u, i, v, j in half.edges.tolist()]
+    door = len(exits[south]) - 1
+    edges.append((south, door, south + size, door))
+    lengths = [*half.lengths, *half.lengths, 6.0]
+    return Graph.of(
+        types=[len(ways) for ways in exits] * 2,
+        exits=exits + twice,
+        edges=edges,
+        lengths=lengths,
+        sigmas=[1e-3] * len(lengths),
+    )
+
+
+def test_a_symmetric_building_is_refused_and_both_ways_are_returned():
+    rng = np.random.default_rng(0)
+    whole = rotunda()
+    found = match(perturb(whole, 0.03, rng), perturb(whole, 0.03, rng))
+    assert not found.accepted
+    assert "more than one way" in found.reason
+    assert found.false_merge_probability > 0.01
+    best, other = found.best, found.alternatives[0]
+    assert len(best.pairs) == len(other.pairs) == len(whole)
+    off = math.remainder(best.transform.angle - other.transform.angle, math.tau)
+    assert abs(abs(off) - math.pi) < 0.05
+
+
+def test_one_half_of_a_symmetric_building_is_refused_too():
+    rng = np.random.default_rng(0)
+    whole = rotunda()
+    half = cut(whole, np.arange(len(whole) // 2))
+    found = match(perturb(whole, 0.03, rng), perturb(half, 0.03, rng))
+    assert not found.accepted
+
+
+def with_door(graph, vertex):
+    """Return the map after an exit was opened at a vertex."""
+    exits = [graph.exits_of(v).tolist() for v in range(len(graph))]
+    free = next(way for way in (E, N, W, S) if not np.isclose(exits[vertex], way).any())
+    exits[vertex].append(free)
+    return Graph.of(
+        types=graph.types,
+        exits=exits,
+        edges=graph.edges,
+        lengths=graph.lengths,
+        sigmas=np.sqrt(graph.variances),
+    )
+
+
+def test_an_opened_door_is_forgiven_only_on_request():
+    rng = np.random.default_rng(5)
+    maze = make_maze(6, 6, rng)
+    three = int(np.flatnonzero(np.diff(maze.first_exit) == 3)[0])
+    a = perturb(maze, 0.02, rng)
+    b, order = turn(perturb(with_door(maze, three), 0.02, rng), 0.5, rng)
+    assert not match(a, b).accepted
+    found = match(a, b, Options(doors=True))
+    assert found.accepted
+    assert len(found.pairs) == len(maze)
+    np.testing.assert_array_equal(order[found.pairs[:, 1]], found.pairs[:, 0])
+
+
+def test_a_contradiction_at_the_rim_is_tolerated_only_on_request():
+    rng = np.random.default_rng(5)
+    maze = make_maze(6, 6, rng)
+    a, b = perturb(maze, 0.02, rng), perturb(maze, 0.02, rng)
+    lengths = b.lengths.copy()
+    end = int(np.argmin(np.diff(maze.first_exit)[maze.edges[:, 2]]))
+    lengths[end] *= 3
+    spoilt = Graph(
+        **{
+            name: getattr(b, name)
+            for name in ("types", "first_exit", "exits", "edges", "shifts", "complete")
+        },
+        lengths=lengths,
+        variances=b.variances,
+    )
+    assert match(a, spoilt).best is None
+    found = match(a, spoilt, Options(tolerate_rim=True))
+    assert found.accepted
+    assert (found.pairs[:, 0] == found.pairs[:, 1]).all()
+    assert len(found.pairs) >= len(maze) - 2
+    assert found.hypotheses.contradictions.max() > 0
+
+
+def test_probability_falls_with_the_score_and_grows_with_rivals_and_trials():
+    alone = [false_merge_probability(s, [], 1e4) for s in (0.0, 10.0, 20.0, 900.0)]
+    assert alone == sorted(alone, reverse=True)
+    assert alone[0] > 0.99
+    assert false_merge_probability(30, [29], 1e4) > false_merge_probability(30, [], 1e4)
+    assert false_merge_probability(30, [], 1e5) > false_merge_probability(30, [], 1e4)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("threshold", 0.0, "threshold must lie between 0.0 and 1.0; got 0.0"),
+        ("angle", 1.0, "angle must lie between 0.0 and 0.78539"),
+        ("reach", 0.0, "reach must lie between 0.0 and inf; got 0.0"),
+        ("false_merge", 1.0, "false_merge must lie between 0.0 and 1.0; got 1.0"),
+        ("least", 1, "least must be at least 2 vertices; got 1"),
+    ],
+)
+def test_options_out_of_range(name, value, message):
+    with pytest.raises(ValueError, match=message):
+        Options(**{name: value})
+
+
+def flags(graph, vertices):
+    return find_repeats(graph, lay_out(graph), np.array(vertices), Options())
+
+
+def test_parts_repeated_in_large_are_found_and_unequal_ones_are_not():
+    rng = np.random.default_rng(2)
+    equal = perturb(corridor(1, 7), 0.01, rng)
+    assert flags(equal, range(len(equal) - 6)).mean() > 0.5
+    unequal = perturb(make_maze(6, 6, rng), 0.01, rng)
+    assert not flags(unequal, range(len(unequal))).any()
+
+
+def test_half_a_symmetric_building_is_the_other_half_again():
+    whole = perturb(rotunda(), 0.01, np.random.default_rng(0))
+    half = len(whole) // 2
+    assert flags(whole, range(half)).all()

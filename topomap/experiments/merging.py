@@ -1,0 +1,200 @@
+"""How often merging is right, refused, wrong: overlap, noise, different buildings."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections import Counter
+from functools import cache
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from merge.makers import cut, make_maze, overlapping, perturb, turn
+from merge.pairwise import match
+from topomap.experiments.experiment import Cell, Experiment, Tallies
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from merge.graph import Graph
+
+__all__ = ["EXPERIMENTS", "merge_mazes", "merge_plans"]
+
+SPACING = {"maze": (2.0, 8.0), "regular": (3.0, 3.0)}
+"""Distances between the grid lines of a maze, in metres: all alike in a regular one."""
+LEAST_CORNERS = 100
+"""Floor plans with fewer vertices on their longest boundary are left out."""
+BINS = (0.001, 0.01, 0.1, 0.5, 0.9)
+"""Where the stated probabilities are parted for the reliability."""
+RIGHT = 0.9
+"""Share of the matched vertices that must be one place, for a merge to be right.
+
+A wrong overlay of mazes has hardly any; a few wrong pairs at the rim do not move it.
+"""
+
+
+def merge_mazes(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
+    """Merge pairs of partial maps of a maze, or of two different ones."""
+    total: Counter[str] = Counter()
+    size, sigma = int(cell["vertices"]), float(cell["sigma"])
+    side = math.ceil(math.sqrt(8 * size))
+    for _ in range(trials):
+        spacing = SPACING[str(cell["world"])]
+        maze = other = make_maze(side, side, rng, spacing=spacing)
+        overlap = float(cell["overlap"])
+        one, two = overlapping(maze, size, max(overlap, 0.0), rng)
+        if overlap < 0:
+            other = make_maze(side, side, rng, spacing=spacing)
+            two, _ = overlapping(other, size, 0.0, rng)
+        a = perturb(cut(maze, one), sigma, rng)
+        b, order = turn(
+            perturb(cut(other, two), sigma, rng), rng.uniform(0, math.tau), rng
+        )
+        truth = None if other is not maze else (one, two[order])
+        total.update(_judge(a, b, truth, "reliability" in cell))
+    return dict(total)
+
+
+def merge_plans(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
+    """Merge pairs of partial maps of real floor plans, each of half its boundary."""
+    total: Counter[str] = Counter()
+    plans = _plans()
+    sigma, overlap = float(cell["sigma"]), float(cell["overlap"])
+    for _ in range(trials):
+        i, j = rng.choice(len(plans), 2, replace=False).tolist()
+        whole, other = plans[i], plans[i] if overlap >= 0 else plans[j]
+        one, two = overlapping(whole, len(whole) // 2, max(overlap, 0.0), rng)
+        if overlap < 0:
+            two, _ = overlapping(other, len(other) // 2, 0.0, rng)
+        a = perturb(cut(whole, one), sigma, rng)
+        b, order = turn(
+            perturb(cut(other, two), sigma, rng), rng.uniform(0, math.tau), rng
+        )
+        truth = (one, two[order]) if overlap >= 0 else None
+        total.update(_judge(a, b, truth, False))
+    return dict(total)
+
+
+@cache
+def _plans() -> tuple[Graph, ...]:
+    """Return the outer boundaries of the floor plans as a perfect robot maps them."""
+    from behaviours.parameters import Parameters
+    from topomap.errors import InputError
+    from topomap.merging import to_graph
+    from topomap.truth import true_maps
+    from worlds.importing.formats import import_world
+    from worlds.world import WorldError
+
+    folder = Path(os.environ.get("TOPOMAP_DATA", "../shared/data")) / "floorplans"
+    found = []
+    for path in sorted(folder.glob("*.xml")):
+        try:
+            charts = true_maps(import_world(path), Parameters())
+        except WorldError:
+            continue
+        longest = max(map(to_graph, charts), key=len)
+        if len(longest) >= LEAST_CORNERS:
+            found.append(longest)
+    if len(found) < 2:
+        raise InputError("TOPOMAP_DATA", "", str(folder), "a folder of floor plans")
+    return tuple(found)
+
+
+def _judge(
+    a: Graph,
+    b: Graph,
+    truth: tuple[NDArray[np.int64], NDArray[np.int64]] | None,
+    stated: bool,
+) -> dict[str, float]:
+    """Merge two maps and say what came of it, as tallies of one trial."""
+    found = match(a, b)
+    pairs = found.pairs
+    right = False
+    if truth is not None and len(pairs):
+        same = truth[0][pairs[:, 0]] == truth[1][pairs[:, 1]]
+        right = bool(same.mean() > RIGHT)
+    told: dict[str, float] = {
+        "correct": float(found.accepted and right),
+        "refused": float(not found.accepted),
+        "false": float(found.accepted and not right),
+        "shared": 0.0
+        if truth is None
+        else len(np.intersect1d(*truth)) / max(len(a), 1),
+    }
+    if stated and found.best is not None:
+        claim = found.false_merge_probability
+        bin_ = int(np.searchsorted(BINS, claim))
+        told[f"bin {bin_} n"] = 1.0
+        told[f"bin {bin_} wrong"] = float(not right)
+        told[f"bin {bin_} claimed"] = claim
+    return told
+
+
+def _cells(vertices: int, overlaps: tuple[float, ...]) -> tuple[Cell, ...]:
+    return tuple(
+        {"world": world, "vertices": vertices, "sigma": sigma, "overlap": overlap}
+        for world, sigma, overlap in product(SPACING, (0.02, 0.05, 0.1), overlaps)
+    )
+
+
+EXPERIMENTS = (
+    Experiment(
+        "merging-overlap",
+        "How often are two maps merged rightly, by how much they overlap?",
+        _cells(100, (0.0, 0.1, 0.2, 0.3, 0.4, 0.6, 0.8)),
+        merge_mazes,
+        trials=1000,
+        batch_size=25,
+        shares=("correct", "refused", "false"),
+        means=("shared",),
+        x="overlap",
+    ),
+    Experiment(
+        "merging-strangers",
+        "How often are maps of two different mazes merged?",
+        _cells(100, (-1.0,)),
+        merge_mazes,
+        trials=1000,
+        batch_size=25,
+        shares=("refused", "false"),
+        x="sigma",
+    ),
+    Experiment(
+        "merging-plans",
+        "How often are two halves of a real floor plan's boundary merged rightly?",
+        tuple(
+            {"sigma": sigma, "overlap": overlap}
+            for sigma, overlap in product(
+                (0.02, 0.05, 0.1), (-1.0, 0.1, 0.2, 0.3, 0.5, 0.7)
+            )
+        ),
+        merge_plans,
+        trials=1000,
+        batch_size=50,
+        shares=("correct", "refused", "false"),
+        means=("shared",),
+        x="overlap",
+    ),
+    Experiment(
+        "merging-reliability",
+        "How often is the best overlay wrong that is said to be so likely wrong?",
+        tuple(
+            {
+                "reliability": 1,
+                "world": world,
+                "vertices": 60,
+                "sigma": 0.1,
+                "overlap": overlap,
+            }
+            for world, overlap in product(SPACING, (0.0, 0.1, 0.15))
+        ),
+        merge_mazes,
+        trials=1000,
+        batch_size=25,
+        shares=("correct", "refused", "false"),
+        x="overlap",
+    ),
+)
