@@ -76,7 +76,7 @@ def region_world(
                 f"{corners} corners; expected at most {MOST_CORNERS}: try a greater "
                 "tolerance or passage",
             )
-        region = unpinched(region, passage, start)
+        region = unpinched(region, tolerance, passage, start)
         if region.equals(before):
             break
     try:
@@ -130,7 +130,7 @@ def opened(
 
 
 def unpinched(
-    region: shapely.Polygon, passage: float, start: Place | None
+    region: shapely.Polygon, tolerance: float, passage: float, start: Place | None
 ) -> shapely.Polygon:
     """Fill in where two outer corners leave less than `passage` between them.
 
@@ -139,19 +139,28 @@ def unpinched(
     while passage:
         rings = _rings(region)
         if touch := _touch(rings):
-            low = high = touch
+            plug = _plug(touch, touch, tolerance, passage)
         else:
             gap = narrowest(rings)
             if gap.width >= passage - 10 * GRAIN:
                 break
-            low, high = gap.low, gap.high
-        # The plug lies along the walls behind both corners, else it only touches.
-        half = passage / 2
-        wide = half if touch else 0.0
-        plug = shapely.box(low[0] - wide, low[1] - half, high[0] + wide, high[1] + half)
+            plug = _plug(gap.low, gap.high, tolerance, passage)
         left = shapely.get_parts(region.difference(plug)).tolist()
         region = _rounded(around(left, start))
     return region
+
+
+def _plug(low: Place, high: Place, tolerance: float, passage: float) -> shapely.Polygon:
+    """Return what fills the rectangle between two corners.
+
+    It goes on along the walls behind them, for if it ended there it would only
+    touch; and no side of it is so short that it would be a jog.
+    """
+    more = max(1.2 * tolerance, 0.1 * passage)
+    is_wide = high[0] - low[0] > tolerance, high[1] - low[1] > tolerance
+    dx = 0.0 if is_wide[0] else more
+    dy = 0.0 if is_wide[1] and not is_wide[0] else more
+    return shapely.box(low[0] - dx, low[1] - dy, high[0] + dx, high[1] + dy)
 
 
 def _touch(rings: Sequence[Ring]) -> Place | None:
