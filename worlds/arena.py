@@ -15,8 +15,9 @@ import pymunk
 import shapely
 from numpy.typing import NDArray
 
+from worlds.errors import WorldError
 from worlds.pose import Pose
-from worlds.world import World, WorldError
+from worlds.world import World
 
 __all__ = ["Arena", "Disc", "Rider"]
 

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from worlds.errors import WorldError
 from worlds.jogs import straightened
-from worlds.world import Ring, World, WorldError
+from worlds.world import Ring, World
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -71,7 +72,7 @@ def check_fit(world: World, parameters: Parameters) -> None:
     >>> closet = make_world([(0, 0), (2, 0), (2, 0.5), (0, 0.5)])
     >>> check_fit(closet, Parameters(r0=0.3))
     Traceback (most recent call last):
-    worlds.world.WorldError: passage at (1, 0.25): 0.5 m wide; expected more than \
+    worlds.errors.WorldError: passage at (1, 0.25): 0.5 m wide; expected more than \
 0.6 m, twice r0
     """
     if not world.is_rectilinear:

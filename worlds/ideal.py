@@ -28,8 +28,8 @@ from behaviours.port import (
     Side,
     Turn,
 )
+from worlds.errors import WorldError
 from worlds.sight import Sight
-from worlds.world import WorldError
 
 if TYPE_CHECKING:
     import numpy as np

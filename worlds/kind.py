@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from worlds.world import World, WorldError
+from worlds.errors import WorldError
+from worlds.world import World
 
 __all__ = ["Kind", "Option", "checked"]
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from worlds.errors import WorldError
 from worlds.random_worlds import RANDOM
 from worlds.shapes import SHAPES
-from worlds.world import World, WorldError
+from worlds.world import World
 
 if TYPE_CHECKING:
     import numpy as np

@@ -14,7 +14,7 @@ import numpy as np
 from numba import njit
 
 from behaviours.port import Side
-from worlds.world import WorldError
+from worlds.errors import WorldError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

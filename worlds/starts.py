@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from worlds.errors import WorldError
 from worlds.pose import Pose
-from worlds.world import World, WorldError
+from worlds.world import World
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters

@@ -9,7 +9,9 @@ from typing import TypeAlias
 
 import shapely
 
-__all__ = ["Ring", "World", "WorldError", "make_world"]
+from worlds.errors import WorldError
+
+__all__ = ["Ring", "World", "make_world"]
 
 Ring: TypeAlias = tuple[tuple[float, float], ...]
 """Corners of a closed polygon in metres, the first one not repeated at the end."""
@@ -19,23 +21,6 @@ FARTHEST = 1e7
 
 PARALLEL = 1e-9
 """A wall whose run across an axis is at most this part of its length is on it."""
-
-
-class WorldError(ValueError):
-    """A world that no robot can stand in.
-
-    Examples
-    --------
-    >>> str(WorldError("islands[0]", "crosses itself at (1, 2)"))
-    'islands[0]: crosses itself at (1, 2)'
-    """
-
-    def __init__(self, field: str, fault: str) -> None:
-        super().__init__(f"{field}: {fault}")
-        self.field = field
-        """Which part of the world is at fault, such as ``outer[3]``."""
-        self.fault = fault
-        """What is wrong with it, with the value and what was expected."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,9 @@ from topomap import InputError, JobError, build_map
 from topomap.bodies import body_parameters
 from topomap.closers import CLOSINGS, make_closer
 from topomap.topological_map import same_direction
+from worlds.errors import WorldError
 from worlds.pose import Pose
-from worlds.world import WorldError, make_world
+from worlds.world import make_world
 
 ROOM = make_world([(0, 0), (5, 0), (5, 2), (2, 2), (2, 4), (0, 4)])
 SEEDS = st.integers(0, 2**32 - 1)

@@ -14,7 +14,8 @@ from topomap.files import atomic
 from topomap.files.atomic import write_atomically
 from topomap.files.json_files import read_bytes, read_json
 from topomap.files.world_files import load_world, save_world
-from worlds.world import WorldError, make_world
+from worlds.errors import WorldError
+from worlds.world import make_world
 
 ROOM = {
     "format": "topomap-world",

@@ -7,8 +7,9 @@ import pytest
 import shapely
 
 from worlds.arena import Arena
+from worlds.errors import WorldError
 from worlds.pose import Pose
-from worlds.world import WorldError, make_world
+from worlds.world import make_world
 
 ROOM = make_world(
     [(0, 0), (3, 0), (3, 2), (0, 2)], [[(1, 1), (1.3, 1), (1.3, 1.2), (1, 1.2)]]

@@ -9,9 +9,10 @@ from hypothesis import given, settings
 
 from behaviours.parameters import Parameters
 from tests.strategies import parameters, random_worlds, rectilinear_rings
+from worlds.errors import WorldError
 from worlds.fit import check_fit, narrowest
 from worlds.jogs import jogs, straightened, without
-from worlds.world import WorldError, make_world
+from worlds.world import make_world
 
 
 def keeps_all_corners(world, r0):

@@ -20,9 +20,10 @@ from behaviours.port import (
     Turn,
 )
 from topomap.truth import true_maps
+from worlds.errors import WorldError
 from worlds.ideal import IdealBody
 from worlds.pose import Pose
-from worlds.world import WorldError, make_world
+from worlds.world import make_world
 
 ROBOT = Parameters()
 ROOM = make_world([(0, 0), (6, 0), (6, 2), (3, 2), (3, 2.1), (2, 2.1), (2, 4), (0, 4)])

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 import worlds
 from tests.strategies import random_worlds, seeds
+from worlds.errors import WorldError
 from worlds.fit import narrowest
 from worlds.growth import Outline
-from worlds.world import WorldError
 
 
 def walls_of(world):

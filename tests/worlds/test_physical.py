@@ -27,11 +27,12 @@ from behaviours.port import (
 from tests.worlds.rooms import corners_of, random_room, random_start
 from worlds.arena import Arena
 from worlds.crew import run_together
+from worlds.errors import WorldError
 from worlds.physical import PhysicalBody
 from worlds.pose import Pose
 from worlds.profile import ProfileError
 from worlds.profiles import GENERIC, PROFILES
-from worlds.world import WorldError, make_world
+from worlds.world import make_world
 
 ROOM = make_world([(0, 0), (4, 0), (4, 3), (0, 3)])
 EXACT = GENERIC.without_noise()

@@ -9,9 +9,10 @@ from hypothesis import assume, given, settings
 
 from behaviours.parameters import Parameters
 from tests.strategies import parameters, random_worlds, seeds
+from worlds.errors import WorldError
 from worlds.pose import Pose
 from worlds.starts import check_start, choose_start
-from worlds.world import WorldError, make_world
+from worlds.world import make_world
 
 ROOM = make_world([(0, 0), (4, 0), (4, 3), (0, 3)], [[(1, 1), (2, 1), (2, 2), (1, 2)]])
 

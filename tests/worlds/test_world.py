@@ -7,7 +7,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tests.strategies import random_worlds
-from worlds.world import WorldError, make_world
+from worlds.errors import WorldError
+from worlds.world import make_world
 
 SQUARE = [(0, 0), (9, 0), (9, 9), (0, 9)]
 BLOCK = [(1, 1), (2, 1), (2, 2), (1, 2)]

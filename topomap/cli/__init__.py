@@ -25,7 +25,7 @@ def main(argv: list[str] | None = None) -> int:
 
     from topomap.cli.app import app
     from topomap.errors import InputError, JobError
-    from worlds.world import WorldError
+    from worlds.errors import WorldError
 
     # typer exports the class of one usage error; its base stands for all.
     usage_error: type[Exception] = typer.BadParameter.__mro__[2]

@@ -55,7 +55,7 @@ class Progress:
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
     """Name the world's file in what is found wrong with the world."""
-    from worlds.world import WorldError
+    from worlds.errors import WorldError
 
     try:
         yield

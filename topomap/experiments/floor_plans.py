@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 from topomap.errors import InputError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.experiments.mapping import MEANS, map_once
+from worlds.errors import WorldError
 from worlds.pose import Pose
-from worlds.world import WorldError
 
 if TYPE_CHECKING:
     import numpy as np

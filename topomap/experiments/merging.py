@@ -85,8 +85,8 @@ def _plans() -> tuple[Graph, ...]:
     from topomap.errors import InputError
     from topomap.merging import to_graph
     from topomap.truth import true_maps
+    from worlds.errors import WorldError
     from worlds.importing.formats import import_world
-    from worlds.world import WorldError
 
     folder = Path(os.environ.get("TOPOMAP_DATA", "../shared/data")) / "floorplans"
     found = []

@@ -8,7 +8,8 @@ import msgspec
 
 from topomap.files.atomic import write_atomically
 from topomap.files.json_files import read_json
-from worlds.world import World, WorldError, make_world
+from worlds.errors import WorldError
+from worlds.world import World, make_world
 
 __all__ = ["load_world", "save_world"]
 

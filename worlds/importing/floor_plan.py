@@ -7,11 +7,12 @@ from pathlib import Path
 import numpy as np
 import shapely
 
+from worlds.errors import WorldError
 from worlds.importing.doors import door_gaps
 from worlds.importing.plan_xml import read_plan
 from worlds.importing.region import NoRegionError, Place, region_world, thick
 from worlds.importing.squaring import slanted_share, square_up
-from worlds.world import World, WorldError
+from worlds.world import World
 
 __all__ = ["import_floor_plan"]
 

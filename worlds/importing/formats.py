@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
+from worlds.errors import WorldError
 from worlds.importing.floor_plan import import_floor_plan
 from worlds.importing.picture import import_picture
 from worlds.importing.ros_map import import_ros_map
 from worlds.kind import Option, checked
-from worlds.world import World, WorldError
+from worlds.world import World
 
 __all__ = ["Format", "formats", "import_world"]
 

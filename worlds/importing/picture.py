@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from worlds.errors import WorldError
 from worlds.importing.raster import read_picture, traced_world
 from worlds.importing.region import Place
-from worlds.world import World, WorldError
+from worlds.world import World
 
 __all__ = ["import_picture"]
 

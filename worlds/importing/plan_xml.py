@@ -11,7 +11,7 @@ from xml.parsers import expat
 
 import numpy as np
 
-from worlds.world import WorldError
+from worlds.errors import WorldError
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

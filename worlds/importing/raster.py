@@ -10,9 +10,10 @@ import numpy as np
 import shapely
 from PIL import Image, UnidentifiedImageError
 
+from worlds.errors import WorldError
 from worlds.importing.region import NoRegionError, Place, region_world
 from worlds.importing.tracing import trace
-from worlds.world import World, WorldError
+from worlds.world import World
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

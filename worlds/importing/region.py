@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from worlds.errors import WorldError
 from worlds.fit import narrowest
 from worlds.jogs import jogs, without
-from worlds.world import Ring, World, WorldError, make_world
+from worlds.world import Ring, World, make_world
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

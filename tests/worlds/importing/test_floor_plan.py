@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 import worlds
 from behaviours.parameters import Parameters
 from tests.worlds.importing.plans import write_plan
+from worlds.errors import WorldError
 from worlds.fit import check_fit
 from worlds.importing.squaring import cluster, slanted_share, square_up
 from worlds.jogs import jogs
-from worlds.world import WorldError
 
 LEFT = [(0, 0), (4, 0), (4, 3), (0, 3)]
 RIGHT = [(4, 0), (9, 0), (9, 3), (4, 3)]

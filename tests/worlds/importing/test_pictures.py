@@ -13,11 +13,12 @@ from PIL import Image
 import worlds
 from behaviours.parameters import Parameters
 from tests.strategies import seeds
+from worlds.errors import WorldError
 from worlds.fit import check_fit
 from worlds.importing import raster
 from worlds.importing.region import NoRegionError
 from worlds.importing.tracing import trace
-from worlds.world import WorldError, make_world
+from worlds.world import make_world
 
 DATA = Path(os.environ.get("TOPOMAP_DATA", Path(__file__).parents[4] / "shared/data"))
 EXACT = {"tolerance": 0, "passage": 0}
