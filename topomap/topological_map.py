@@ -71,12 +71,14 @@ class Edge:
         exact = [length for length in self.lengths if length.sigma == 0]
         if exact:
             return Length(sum(length.value for length in exact) / len(exact), 0.0)
-        weights = [length.sigma**-2 for length in self.lengths]
+        # Relative to the surest one: the square of a tiny sigma would vanish.
+        least = min(length.sigma for length in self.lengths)
+        weights = [(least / length.sigma) ** 2 for length in self.lengths]
         total = sum(weights)
         value = sum(
             w * length.value for w, length in zip(weights, self.lengths, strict=True)
         )
-        return Length(value / total, total**-0.5)
+        return Length(value / total, least / math.sqrt(total))
 
 
 @dataclass(frozen=True)

@@ -103,6 +103,13 @@ def test_lengths_fuse_by_inverse_variances():
     assert fused.sigma == pytest.approx(125**-0.5)
 
 
+def test_lengths_fuse_however_sure_they_are():
+    lengths = (Length(2.0, 1e-267), Length(4.0, 1e-267), Length(9.0, 1.0))
+    fused = Edge(0, 1, 0.0, math.pi, lengths).fused
+    assert fused.value == pytest.approx(3.0)
+    assert fused.sigma == pytest.approx(1e-267 / math.sqrt(2))
+
+
 def test_an_exact_length_beats_all_others():
     fused = Edge(0, 1, 0.0, math.pi, (Length(2.0, 0.0), Length(9.0, 0.1))).fused
     assert fused == Length(2.0, 0.0)
