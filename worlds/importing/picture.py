@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from worlds.importing.raster import read_picture, traced_world
-from worlds.importing.region import Place
+from worlds.importing.rings import Place
 from worlds.world import World, WorldError
 
 __all__ = ["import_picture"]

@@ -10,7 +10,8 @@ import numpy as np
 import shapely
 from PIL import Image, UnidentifiedImageError
 
-from worlds.importing.region import NoRegionError, Place, region_world
+from worlds.importing.region import region_world
+from worlds.importing.rings import NoRegionError, Place
 from worlds.importing.tracing import trace
 from worlds.world import World, WorldError
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import yaml
 
 from worlds.importing.raster import read_picture, traced_world
-from worlds.importing.region import Place
+from worlds.importing.rings import Place
 from worlds.world import World, WorldError
 
 __all__ = ["import_ros_map"]
