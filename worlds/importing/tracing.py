@@ -115,7 +115,8 @@ def _rings(
     rows, columns = np.nonzero((a + b + c + d) % 2)
     if len(rows) > MOST_TRACED:
         raise NoRegionError(
-            f"expected at most {MOST_TRACED} corners; got {len(rows)}: clean the picture"
+            f"expected at most {MOST_TRACED} corners; got {len(rows)}: "
+            "clean the picture"
         )
     along_row = np.arange(len(rows)) ^ 1
     order = np.lexsort((rows, columns))
