@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
+from merge.rigid import AmbiguousRotationError, RigidTransform, register_rigid
 from topomap.embedding import embedded
 from topomap.topological_map import TopologicalMap, Vertex, same_direction
 
@@ -110,15 +110,15 @@ def _compare(
         parts = _agreeing_parts(a, b, tolerance)
         size = max(map(len, parts), default=0)
         found = [pairs for pairs in parts if len(pairs) == size]
-    ranked = ((_best_motion(pairs, *places), pairs) for pairs in found)
-    motion, best = min(ranked, key=lambda pair: pair[0].rmse, default=(None, {}))
+    ranked = [(*_best_motion(pairs, *places), pairs) for pairs in found]
+    motion, rmse, best = min(ranked, key=lambda row: row[1], default=(None, None, {}))
     return Comparison(
         correct=is_same,
         missing_vertices=len(b.vertices) - len(best),
         extra_vertices=len(a.vertices) - len(best),
-        position_rmse=motion and motion.rmse,
-        rotation=motion and motion.angle,
-        offset=motion and motion.offset,
+        position_rmse=rmse,
+        rotation=None if motion is None else motion.angle,
+        offset=None if motion is None else (motion.x, motion.y),
         pairs=tuple(sorted(best.items())),
     )
 
@@ -242,32 +242,25 @@ def _follow(ways: _Ways, vertex: int, direction: float, tolerance: float) -> int
     return None
 
 
-def _places(chart: TopologicalMap) -> dict[int, complex]:
-    """Return where the vertices are, as complex numbers; embedded if need be."""
+def _places(chart: TopologicalMap) -> dict[int, tuple[float, float]]:
+    """Return where the vertices are; embedded if need be."""
     if any(vertex.position is None for vertex in chart.vertices):
         chart = embedded(chart)
-    return {v.id: complex(*v.position) for v in chart.vertices if v.position}
-
-
-class _Motion(NamedTuple):
-    """A rigid motion: a turn about the origin, then a move."""
-
-    angle: float
-    offset: tuple[float, float]
-    rmse: float
-    """Root mean square distance that it leaves, in metres."""
+    return {v.id: v.position for v in chart.vertices if v.position}
 
 
 def _best_motion(
-    pairs: dict[int, int], mine: dict[int, complex], theirs: dict[int, complex]
-) -> _Motion:
-    """Return the rigid motion that brings matched vertices nearest together."""
+    pairs: dict[int, int],
+    mine: dict[int, tuple[float, float]],
+    theirs: dict[int, tuple[float, float]],
+) -> tuple[RigidTransform, float]:
+    """Return the motion that brings matched vertices nearest, and the rmse left."""
     p = np.array([mine[i] for i in pairs])
     q = np.array([theirs[j] for j in pairs.values()])
-    pull = np.vdot(p - p.mean(), q - q.mean())
-    turn = pull / abs(pull) if abs(pull) > 0 else 1.0 + 0.0j
-    move = q.mean() - turn * p.mean()
-    rmse = np.sqrt(np.mean(np.abs(q - turn * p - move) ** 2))
-    return _Motion(
-        float(np.angle(turn)), (float(move.real), float(move.imag)), float(rmse)
-    )
+    try:
+        motion = register_rigid(p, q)
+    except (AmbiguousRotationError, ValueError):  # one place, or all at one place
+        x, y = q.mean(axis=0) - p.mean(axis=0)
+        motion = RigidTransform(0.0, float(x), float(y))
+    left = np.square(motion(p) - q).sum(axis=1)
+    return motion, float(np.sqrt(left.mean()))

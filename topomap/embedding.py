@@ -9,22 +9,18 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from topomap.errors import InputError
+from topomap.springs import solve_springs
 from topomap.topological_map import Edge, TopologicalMap, Vertex
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-    from scipy.sparse import csr_array, sparray
-__all__ = ["Embedding", "embed", "embedded", "placed"]
 
+__all__ = ["Embedding", "embed", "embedded", "placed"]
 
 EXACT = 1e-4
 """Standard deviation, in metres, that stands in for an exact length."""
 SIDEWAYS = 1e-2
 """Standard deviation, in metres, of where a wall lies beside the robot."""
-DENSE = 40
-"""Up to so many free vertices the stiffness is inverted as a dense matrix."""
-CHUNK = 128
-"""Columns of the inverse that are held at once; even."""
 
 
 class Embedding(NamedTuple):
@@ -40,37 +36,37 @@ class Embedding(NamedTuple):
 def embed(chart: TopologicalMap) -> Embedding:
     r"""Find the positions that best agree with all lengths of a map.
 
-    Each edge is a spring along its direction, as stiff as its fused length is
-    sure, and a stiffer one across it; the result has the least energy. The first
-    vertex of each connected part stays where the map has it, or at the origin.
+        Each edge is a spring along its direction, as stiff as its fused length is
+        sure, and a stiffer one across it; the result has the least energy. The first
+        vertex of each connected part stays where the map has it, or at the origin.
 
     Parameters
     ----------
-    chart : TopologicalMap
-        Directions of exits are taken as exact, the directions of the springs.
+        chart : TopologicalMap
+            Directions of exits are taken as exact, the directions of the springs.
 
     Returns
     -------
-    Embedding
-        In the frame in which the map's exits are given.
+        Embedding
+            In the frame in which the map's exits are given.
 
     Raises
     ------
-    InputError
-        If an edge leaves its two ends in directions that are not opposite, so
-        that it is no straight way.
+        InputError
+            If an edge leaves its two ends in directions that are not opposite, so
+            that it is no straight way.
 
     Notes
     -----
-    The energy is :math:`\sum_e |S_e^{-1/2} (x_t - x_s - d_e)|^2` with
-    :math:`d_e` the fused length and shift turned into the map's frame. [K]
-    4.3.3 has springs along the axes only and merges coordinates that a
-    perpendicular wall makes equal; the spring across the edge, 1 cm, says the
-    same of a wall that a sensor has measured, and serves any direction. Where
-    all edges run along x or y the two coordinates separate by themselves.
+        The energy is :math:`\sum_e |S_e^{-1/2} (x_t - x_s - d_e)|^2` with
+        :math:`d_e` the fused length and shift turned into the map's frame. [K]
+        4.3.3 has springs along the axes only and merges coordinates that a
+        perpendicular wall makes equal; the spring across the edge, 1 cm, says the
+        same of a wall that a sensor has measured, and serves any direction. Where
+        all edges run along x or y the two coordinates separate by themselves.
 
-    The solution is sparse and near linear in the number of edges for maps of
-    buildings; the covariances take one more solution a vertex: O(V^2).
+        The solution is sparse and near linear in the number of edges for maps of
+        buildings; the covariances take one more solution a vertex: O(V^2).
 
     Examples
     --------
@@ -138,7 +134,7 @@ def _embed(vertices: tuple[Vertex, ...], edges: tuple[Edge, ...]) -> Embedding:
     place = np.full(count, -1)
     place[free] = np.arange(len(free))
 
-    solution, blocks = _solve(place[ends], *_springs(edges), len(free))
+    solution, blocks = solve_springs(place[ends], *_springs(edges), len(free))
     positions, covariances = np.zeros((count, 2)), np.zeros((count, 2, 2))
     positions[free], covariances[free] = solution, blocks
     # Springs do not mind where they are: each part is moved to its anchor.
@@ -191,93 +187,3 @@ def _parts(
         low, high = sorted((root(a), root(b)))
         part[high] = low
     return np.unique([root(k) for k in range(count)], return_inverse=True)
-
-
-def _solve(
-    ends: NDArray[np.int64],
-    way: NDArray[np.float64],
-    weight: NDArray[np.float64],
-    size: int,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the best places (size, 2) and their covariances (size, 2, 2).
-
-    `ends` are places among `size` free ones; -1 stands for a fixed one, at 0.
-    """
-    if np.abs(weight[:, 0, 1]).max() > 1e-9 * weight.max():
-        return _solve_together(ends, way, weight, size)
-    places, covariances = np.empty((size, 2)), np.zeros((size, 2, 2))
-    for axis in (0, 1):
-        places[:, axis], covariances[:, axis, axis] = _solve_axis(
-            ends, way[:, axis], weight[:, axis, axis], size
-        )
-    return places, covariances
-
-
-def _solve_axis(
-    ends: NDArray[np.int64],
-    way: NDArray[np.float64],
-    weight: NDArray[np.float64],
-    size: int,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the best coordinates (size,) on one axis, and their variances."""
-    if size > DENSE:
-        from scipy.sparse import diags_array
-
-        places, blocks = _solve_sparse(
-            _differences(ends, size), diags_array(weight), way, 1
-        )
-        return places, blocks[:, 0, 0]
-    # The fixed vertices share the last column, which is cut off.
-    difference = np.zeros((len(ends), size + 1))
-    rows = np.arange(len(ends))
-    difference[rows, ends[:, 1]] = 1.0
-    difference[rows, ends[:, 0]] = -1.0
-    pull = weight[:, None] * difference[:, :size]
-    inverse = np.asarray(np.linalg.inv(difference[:, :size].T @ pull), dtype=np.float64)
-    return inverse @ (way @ pull), np.diagonal(inverse)
-
-
-def _solve_together(
-    ends: NDArray[np.int64],
-    way: NDArray[np.float64],
-    weight: NDArray[np.float64],
-    size: int,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Do what `_solve` does for edges in any direction."""
-    from scipy.sparse import block_diag, eye_array, kron
-
-    difference = kron(_differences(ends, size), eye_array(2), format="csr")
-    places, blocks = _solve_sparse(
-        difference, block_diag(weight, format="csr"), way.ravel(), 2
-    )
-    return places.reshape(-1, 2), blocks
-
-
-def _differences(ends: NDArray[np.int64], size: int) -> csr_array:
-    """Return the matrix (edges, size) of target less source."""
-    from scipy.sparse import coo_array
-
-    edge, end = np.nonzero(ends >= 0)
-    values = np.where(end, 1.0, -1.0)
-    place = (edge, ends[edge, end])
-    return coo_array((values, place), shape=(len(ends), size)).tocsr()
-
-
-def _solve_sparse(
-    difference: csr_array, weight: sparray, way: NDArray[np.float64], width: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the least-squares solution, and its covariance's diagonal blocks."""
-    from scipy.sparse.linalg import splu
-
-    pull = weight @ difference
-    factor = splu((difference.T @ pull).tocsc())
-    _, size = difference.shape
-    blocks = []
-    for start in range(0, size, CHUNK):
-        count = min(CHUNK, size - start)
-        unit = np.zeros((size, count))
-        unit[start + np.arange(count), np.arange(count)] = 1.0
-        square = factor.solve(unit)[start : start + count]
-        k = np.arange(count // width)
-        blocks.append(square.reshape(len(k), width, len(k), width)[k, :, k, :])
-    return factor.solve(pull.T @ way), np.concatenate(blocks)

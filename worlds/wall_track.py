@@ -21,8 +21,8 @@ CONFIRM = 4
 """So many misfits in a row that agree are a step of the wall."""
 GONE = 3
 """So many in a row that are too far are the wall's end."""
-SPOT = 1.5
-"""They agree for so many half widths of the spot on the wall."""
+SPOT = 2.5
+"""They agree for so many half widths of the spot on the wall: more than all of it."""
 SEED = 3
 """So many readings that agree are a wall."""
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from behaviours import Parameters, VertexType
-from topomap import embedding
+from topomap import springs
 from topomap.embedding import embed, embedded
 from topomap.errors import InputError
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
@@ -51,8 +51,8 @@ def test_the_first_vertex_stays_where_the_map_has_it():
 def test_dense_and_sparse_solutions_agree(monkeypatch):
     chart = measured(true_map(ROOM, Parameters()), np.random.default_rng(3), 0.1)
     dense = embed(chart)
-    monkeypatch.setattr(embedding, "DENSE", 4)
-    monkeypatch.setattr(embedding, "CHUNK", 2)
+    monkeypatch.setattr(springs, "DENSE", 4)
+    monkeypatch.setattr(springs, "CHUNK", 2)
     sparse = embed(chart)
     np.testing.assert_allclose(sparse.positions, dense.positions, atol=1e-9)
     np.testing.assert_allclose(sparse.covariances, dense.covariances, atol=1e-12)

@@ -117,5 +117,6 @@ EXPERIMENTS = (
         batch_size=1,
         shares=("imported", "closed", "correct"),
         means=MEANS,
+        x="plan",
     ),
 )
