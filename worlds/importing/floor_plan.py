@@ -9,8 +9,10 @@ import shapely
 
 from worlds.errors import WorldError
 from worlds.importing.doors import door_gaps
+from worlds.importing.opening import thick
 from worlds.importing.plan_xml import read_plan
-from worlds.importing.region import NoRegionError, Place, region_world, thick
+from worlds.importing.region import region_world
+from worlds.importing.rings import NoRegionError, Place
 from worlds.importing.squaring import slanted_share, square_up
 from worlds.world import World
 

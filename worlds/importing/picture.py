@@ -6,7 +6,7 @@ from pathlib import Path
 
 from worlds.errors import WorldError
 from worlds.importing.raster import read_picture, traced_world
-from worlds.importing.region import Place
+from worlds.importing.rings import Place
 from worlds.world import World
 
 __all__ = ["import_picture"]

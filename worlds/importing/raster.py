@@ -11,7 +11,8 @@ import shapely
 from PIL import Image, UnidentifiedImageError
 
 from worlds.errors import WorldError
-from worlds.importing.region import NoRegionError, Place, region_world
+from worlds.importing.region import region_world
+from worlds.importing.rings import NoRegionError, Place
 from worlds.importing.tracing import trace
 from worlds.world import World
 

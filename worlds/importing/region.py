@@ -2,40 +2,37 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
 import shapely
 
 from worlds.errors import WorldError
-from worlds.fit import narrowest
+from worlds.importing.opening import opened, unpinched
+from worlds.importing.rings import (
+    Place,
+    around,
+    polygon_of,
+    rings_of,
+    rounded,
+    shared_corner,
+)
 from worlds.jogs import jogs, without
 from worlds.world import Ring, World, make_world
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
     from shapely.geometry.base import BaseGeometry
 
-__all__ = ["NoRegionError", "Place", "region_world", "thick"]
+__all__ = ["region_world"]
 
-Place = tuple[float, float]
-
-GRAIN = 1e-6
-"""Coordinates are rounded to micrometres, so that walls are on their axis."""
+MOST_DRAWN = 20_000
+"""Free space with more corners is refused: evening it out would take minutes."""
 
 MOST_CORNERS = 10_000
-"""A region with more is refused: the search for narrow places is quadratic."""
-
+"""So many may be left of them: the search for narrow places is quadratic."""
 
 ROUNDS = 8
 """Straightening may make a passage narrow, closing one may make a jog."""
-
-
-class NoRegionError(ValueError):
-    """Nothing is free where it should be."""
 
 
 def region_world(
@@ -67,16 +64,11 @@ def region_world(
         If it is too ragged, or what is left makes no world.
     """
     region = around(shapely.get_parts(free).tolist(), start)
+    _check_size(path, region, MOST_DRAWN)
     for _ in range(ROUNDS):
         before = region
         region = opened(straight(region, tolerance), passage, start)
-        corners = shapely.get_num_coordinates(region)
-        if corners > MOST_CORNERS:
-            raise WorldError(
-                f"{path}: free space",
-                f"{corners} corners; expected at most {MOST_CORNERS}: try a greater "
-                "tolerance or passage",
-            )
+        _check_size(path, region, MOST_CORNERS)
         region = unpinched(region, tolerance, passage, start)
         if region.equals(before):
             break
@@ -86,108 +78,14 @@ def region_world(
         raise WorldError(f"{path}: {error.field}", error.fault) from None
 
 
-def around(parts: Sequence[shapely.Polygon], start: Place | None) -> shapely.Polygon:
-    """Return the part of free space around a start, or the largest without one.
-
-    Raises
-    ------
-    NoRegionError
-        If there is no free space, or none at the start.
-    """
-    parts = [part for part in parts if part.area > 0]
-    if not parts:
-        raise NoRegionError("no free space is left")
-    if start is None:
-        return max(parts, key=lambda part: float(part.area))
-    point = shapely.Point(start)
-    for part in parts:
-        if part.covers(point):
-            return part
-    raise NoRegionError(f"no free space is left around the start {start}")
-
-
-def opened(
-    region: shapely.Polygon, passage: float, start: Place | None
-) -> shapely.Polygon:
-    """Close all that is narrower than `passage`, and keep one part.
-
-    This is the morphological opening with a square: what remains is where a
-    square of that side can go from the start, or in the largest part.
-
-    Raises
-    ------
-    NoRegionError
-        If nothing remains, or not the start.
-    """
-    if passage == 0:
-        return region
-    core = region.difference(_rim(region, passage / 2))
-    parts = [
-        _rounded(part.union(_rim(part, passage / 2)))
-        for part in shapely.get_parts(core)
-        if part.area > 0
-    ]
-    return around(parts, start)
-
-
-def unpinched(
-    region: shapely.Polygon, tolerance: float, passage: float, start: Place | None
-) -> shapely.Polygon:
-    """Fill in where two outer corners leave less than `passage` between them.
-
-    An opening leaves such a place when both its sides can be reached.
-    """
-    while passage:
-        rings = _rings(region)
-        if touch := _touch(rings):
-            plug = _plug(touch, touch, tolerance, passage)
-        else:
-            gap = narrowest(rings)
-            if gap.width >= passage - 10 * GRAIN:
-                break
-            plug = _plug(gap.low, gap.high, tolerance, passage)
-        left = shapely.get_parts(region.difference(plug)).tolist()
-        region = _rounded(around(left, start))
-    return region
-
-
-def _plug(low: Place, high: Place, tolerance: float, passage: float) -> shapely.Polygon:
-    """Return what fills the rectangle between two corners.
-
-    It goes on along the walls behind them, for if it ended there it would only
-    touch; and no side of it is so short that it would be a jog.
-    """
-    more = max(1.2 * tolerance, 0.1 * passage)
-    is_wide = high[0] - low[0] > tolerance, high[1] - low[1] > tolerance
-    dx = 0.0 if is_wide[0] else more
-    dy = 0.0 if is_wide[1] and not is_wide[0] else more
-    return shapely.box(low[0] - dx, low[1] - dy, high[0] + dx, high[1] + dy)
-
-
-def _touch(rings: Sequence[Ring]) -> Place | None:
-    """Return a corner that two rings share, or one ring has twice."""
-    corners = [corner for ring in rings for corner in ring]
-    if len(set(corners)) == len(corners):
-        return None
-    return Counter(corners).most_common(1)[0][0]
-
-
-def _rim(region: shapely.Polygon, half: float) -> BaseGeometry:
-    """Return all that is within `half` of a wall, in x and in y."""
-    rings = region.exterior, *region.interiors
-    return shapely.union_all([thick(shapely.get_coordinates(r), half) for r in rings])
-
-
-def thick(corners: NDArray[np.float64], half: float) -> BaseGeometry:
-    """Return walls along the axes, end to end, with a thickness of twice `half`."""
-    low = np.minimum(corners[:-1], corners[1:]) - half
-    high = np.maximum(corners[:-1], corners[1:]) + half
-    return shapely.union_all(
-        [
-            shapely.box(x0, y0, x1, y1)
-            for (x0, y0), (x1, y1) in zip(low.tolist(), high.tolist(), strict=True)
-        ]
-    )
+def _check_size(path: Path, region: shapely.Polygon, most: int) -> None:
+    corners = shapely.get_num_coordinates(region)
+    if corners > most:
+        raise WorldError(
+            f"{path}: free space",
+            f"expected at most {most} corners; got {corners}: give a greater "
+            "speck, tolerance or passage",
+        )
 
 
 def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:
@@ -197,56 +95,30 @@ def straight(region: shapely.Polygon, tolerance: float) -> shapely.Polygon:
     """
     if tolerance == 0:
         return region
-    rings = _rings(region)
+    rings = rings_of(region)
     for k in range(len(rings)):
-        stuck: set[Ring] = set()
-        while found := jogs(rings[k], tolerance, tolerance):
-            # All at once if that goes well, else one after the other.
-            for dropped in (found, *([jog] for jog in found)):
-                ring = without(rings[k], dropped)
-                if ring in stuck or len(ring) == len(rings[k]):
-                    continue
-                trial = [*rings[:k], ring, *rings[k + 1 :]]
-                if _polygon(trial).is_valid and _touch(trial) is None:
-                    rings = trial
-                    break
-                stuck.add(ring)
-            else:
-                break
-    return _rounded(_polygon(rings))
+        while dropped := _can_go(rings, k, jogs(rings[k], tolerance, tolerance)):
+            rings[k] = without(rings[k], dropped)
+    return rounded(polygon_of(rings))
+
+
+def _can_go(rings: list[Ring], k: int, found: list[int]) -> list[int]:
+    """Return which jogs of ring k can go together; halves until it goes well."""
+    dropped: list[int] = []
+    groups = [found]
+    while groups:
+        group = groups.pop()
+        ring = without(rings[k], dropped + group)
+        trial = [*rings[:k], ring, *rings[k + 1 :]]
+        is_shorter = len(ring) < len(rings[k])
+        if is_shorter and polygon_of(trial).is_valid and not shared_corner(trial):
+            dropped += group
+        elif len(group) > 1:
+            groups += [group[: len(group) // 2], group[len(group) // 2 :]]
+    return dropped
 
 
 def to_world(region: shapely.Polygon, name: str) -> World:
     """Return a region as a world; a ring that touches another is refused."""
-    rings = _rings(region)
+    rings = rings_of(region)
     return make_world(rings[0], rings[1:], name)
-
-
-def _ring(ring: shapely.LinearRing) -> Ring:
-    """Return the corners of a rectilinear ring, and nothing along its walls."""
-    corners = np.round(shapely.get_coordinates(ring)[:-1], 6) + 0.0
-    corners = corners[(corners != np.roll(corners, 1, axis=0)).any(axis=1)]
-    is_upright = corners[:, 0] == np.roll(corners, -1, axis=0)[:, 0]
-    corners = corners[is_upright != np.roll(is_upright, 1)]
-    return tuple((x, y) for x, y in corners.tolist())
-
-
-def _rings(region: shapely.Polygon) -> list[Ring]:
-    """Return the outer ring counter-clockwise, then the islands clockwise.
-
-    Islands thinner than the grain are none.
-    """
-    turned = shapely.orient_polygons(region)
-    rings = [_ring(ring) for ring in (turned.exterior, *turned.interiors)]
-    rings = [ring for ring in rings if len(ring) >= 4]
-    if not rings:
-        raise NoRegionError("no free space is left")
-    return rings
-
-
-def _polygon(rings: Sequence[Ring]) -> shapely.Polygon:
-    return shapely.Polygon(rings[0], rings[1:])
-
-
-def _rounded(polygon: shapely.Polygon) -> shapely.Polygon:
-    return shapely.set_precision(polygon, GRAIN)

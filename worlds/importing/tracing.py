@@ -7,9 +7,12 @@ import shapely
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from worlds.importing.region import NoRegionError, Place
+from worlds.importing.rings import NoRegionError, Place
 
 __all__ = ["trace"]
+
+MOST_TRACED = 1_000_000
+"""A region with more corners is noise; tracing it would take gigabytes."""
 
 
 def trace(
@@ -40,7 +43,8 @@ def trace(
     Raises
     ------
     NoRegionError
-        If no pixel is free, or not the one at the start.
+        If no pixel is free, or not the one at the start, or if the region has
+        more than `MOST_TRACED` corners.
 
     Notes
     -----
@@ -109,6 +113,11 @@ def _rings(
         for part in (region[:-1, :-1], region[:-1, 1:], region[1:, :-1], region[1:, 1:])
     )
     rows, columns = np.nonzero((a + b + c + d) % 2)
+    if len(rows) > MOST_TRACED:
+        raise NoRegionError(
+            f"expected at most {MOST_TRACED} corners; got {len(rows)}: "
+            "clean the picture"
+        )
     along_row = np.arange(len(rows)) ^ 1
     order = np.lexsort((rows, columns))
     along_column = np.empty_like(order)

@@ -15,8 +15,8 @@ from behaviours.parameters import Parameters
 from tests.strategies import seeds
 from worlds.errors import WorldError
 from worlds.fit import check_fit
-from worlds.importing import raster
-from worlds.importing.region import NoRegionError
+from worlds.importing import raster, region, tracing
+from worlds.importing.rings import NoRegionError
 from worlds.importing.tracing import trace
 from worlds.world import make_world
 
@@ -63,10 +63,10 @@ def test_tracing_is_the_union_of_the_pixels(seed, rows, columns, share):
     """Against shapely, which unites the pixels one by one."""
     is_free = np.random.default_rng(seed).random((rows, columns)) < share
     try:
-        region = trace(is_free, (0.5, 0.25), (3.0, -1.0), None)
+        traced = trace(is_free, (0.5, 0.25), (3.0, -1.0), None)
     except NoRegionError:
         return
-    make_world(region.exterior.coords[:-1], [r.coords[:-1] for r in region.interiors])
+    make_world(traced.exterior.coords[:-1], [r.coords[:-1] for r in traced.interiors])
     pixels = {
         (i, j): shapely.box(
             *(3 + 0.5 * j, -1 + 0.25 * (rows - 1 - i)),
@@ -74,12 +74,12 @@ def test_tracing_is_the_union_of_the_pixels(seed, rows, columns, share):
         )
         for i, j in zip(*np.nonzero(is_free), strict=True)
     }
-    inside = [box for box in pixels.values() if region.covers(box)]
-    assert region.equals(shapely.union_all(inside))
+    inside = [box for box in pixels.values() if traced.covers(box)]
+    assert traced.equals(shapely.union_all(inside))
     # What is left out is another part of free space, or stood at a bare corner.
     if not has_diagonals(is_free):
         parts = shapely.get_parts(shapely.union_all([*pixels.values()]))
-        assert region.area == pytest.approx(max(part.area for part in parts))
+        assert traced.area == pytest.approx(max(part.area for part in parts))
 
 
 def has_diagonals(is_free):
@@ -252,6 +252,15 @@ def test_faults_of_pictures_are_named(tmp_path, monkeypatch):
         worlds.import_world(tmp_path / "none.png", width=3)
     with pytest.raises(WorldError, match=r"room.bmp: expected one of .xml, .*'.bmp'"):
         worlds.import_world(tmp_path / "room.bmp")
+    for module, limit in (
+        (region, "MOST_CORNERS"),
+        (region, "MOST_DRAWN"),
+        (tracing, "MOST_TRACED"),
+    ):
+        with monkeypatch.context() as patch:
+            patch.setattr(module, limit, 5)
+            with pytest.raises(WorldError, match=r"free space: .* 5 corners; got \d+:"):
+                worlds.import_world(path, width=3)
     monkeypatch.setattr(raster, "MOST_PIXELS", 35)
     with pytest.raises(WorldError, match=r"room.png: expected at most 35 .* got 6x6"):
         worlds.import_world(path, width=3)
