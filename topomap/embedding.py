@@ -36,37 +36,37 @@ class Embedding(NamedTuple):
 def embed(chart: TopologicalMap) -> Embedding:
     r"""Find the positions that best agree with all lengths of a map.
 
-        Each edge is a spring along its direction, as stiff as its fused length is
-        sure, and a stiffer one across it; the result has the least energy. The first
-        vertex of each connected part stays where the map has it, or at the origin.
+    Each edge is a spring along its direction, as stiff as its fused length is
+    sure, and a stiffer one across it; the result has the least energy. The first
+    vertex of each connected part stays where the map has it, or at the origin.
 
     Parameters
     ----------
-        chart : TopologicalMap
-            Directions of exits are taken as exact, the directions of the springs.
+    chart : TopologicalMap
+        Directions of exits are taken as exact, the directions of the springs.
 
     Returns
     -------
-        Embedding
-            In the frame in which the map's exits are given.
+    Embedding
+        In the frame in which the map's exits are given.
 
     Raises
     ------
-        InputError
-            If an edge leaves its two ends in directions that are not opposite, so
-            that it is no straight way.
+    InputError
+        If an edge leaves its two ends in directions that are not opposite, so
+        that it is no straight way.
 
     Notes
     -----
-        The energy is :math:`\sum_e |S_e^{-1/2} (x_t - x_s - d_e)|^2` with
-        :math:`d_e` the fused length and shift turned into the map's frame. [K]
-        4.3.3 has springs along the axes only and merges coordinates that a
-        perpendicular wall makes equal; the spring across the edge, 1 cm, says the
-        same of a wall that a sensor has measured, and serves any direction. Where
-        all edges run along x or y the two coordinates separate by themselves.
+    The energy is :math:`\sum_e |S_e^{-1/2} (x_t - x_s - d_e)|^2` with
+    :math:`d_e` the fused length and shift turned into the map's frame. [K]
+    4.3.3 has springs along the axes only and merges coordinates that a
+    perpendicular wall makes equal; the spring across the edge, 1 cm, says the
+    same of a wall that a sensor has measured, and serves any direction. Where
+    all edges run along x or y the two coordinates separate by themselves.
 
-        The solution is sparse and near linear in the number of edges for maps of
-        buildings; the covariances take one more solution a vertex: O(V^2).
+    The solution is sparse and near linear in the number of edges for maps of
+    buildings; the covariances take one more solution a vertex: O(V^2).
 
     Examples
     --------
