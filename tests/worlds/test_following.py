@@ -31,7 +31,15 @@ def body_in(name, ring, pose, seed=0, sigma=0.02):
 
 @pytest.mark.parametrize(
     ("name", "gap"),
-    [("generic5", 0.03), ("generic5", 0.05), ("generic5", 0.09)],
+    [
+        ("generic5", 0.03),
+        ("generic5", 0.05),
+        ("generic5", 0.09),
+        pytest.param(
+            *("epuck", 0.09),
+            marks=pytest.mark.xfail(reason="takes the wall that begins for a step"),
+        ),
+    ],
 )
 def test_a_wall_that_begins_ahead_is_followed_from_its_beginning(name, gap):
     ring = [(0, -2), (3, -2), (3, 0), (4.5, 0), (4.5, 2), (0, 2)]
