@@ -5,10 +5,10 @@ table C.12 of [K]_:
 
 | in | when | go to |
 |---|---|---|
-| AF | seen | FAR |
-| AF | narrowed | FAR |
-| AF | blocked | END |
-| AF | done | GONE |
+| AF | far side | FAR |
+| AF | wall ahead | END |
+| AF | not yet | AF |
+| AF | nothing | GONE |
 
 Purpose: explore one opening. Preconditions: the robot stands where a
 discontinuity begins on side X. Postcondition: it stands at the opening's far
@@ -19,7 +19,10 @@ where there is no far side: EXT beside a wall, PORTAL in a hall. Returns the
 In a hall both sides are watched: its far side is where the hall condition,
 ``r_L + r_R <= 2 r0``, holds again, which serves side halls that meet at one
 place. Beside a wall it is where X sees a wall again. What blocks the way is the
-far side as well (END): then the opening is flush with a corner.
+far side as well (END): then the opening is flush with a corner. The drive has
+stages, that end where what is then found means something else: at 2 r_w, less than
+which is too narrow, at 2 r0, more than which is open space, and where a wall ahead
+would be so far away. So errors of odometry do not decide what was found.
 
 References
 ----------
@@ -29,13 +32,12 @@ References
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum, auto
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from behaviours.automaton import Automaton, Row, perform
-from behaviours.conditions import blocked, done, narrowed, seen
-from behaviours.port import Approach, Behaviour, Outcome, Sensor, Side, Until
+from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.port import Approach, Behaviour, Outcome, Reason, Sensor, Side, Until
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -44,23 +46,57 @@ if TYPE_CHECKING:
 __all__ = ["EXPLORE_OPENING", "Opening", "State", "explore_opening"]
 
 
+ROUNDING = 1e-6
+"""An opening may be this much, in metres, narrower than a hall."""
+
+
 class State(Enum):
     """What the robot is doing; named after the primitives of table C.3."""
 
     AF = auto()
-    """Forward until the opening's far side."""
+    """Forward until the opening's far side, stage by stage."""
     FAR = auto()
     END = auto()
     GONE = auto()
 
 
+class Stage(NamedTuple):
+    """How one stage of the drive ended."""
+
+    outcome: Outcome
+    upto: float
+    """Where it would have ended at the latest, from the opening's beginning, in
+    metres."""
+    is_last: bool
+
+
+def far_side(stage: Stage) -> bool:
+    """The wall, or the hall, begins again."""
+    return stage.outcome.reason in (Reason.SEEN, Reason.NARROWED)
+
+
+def wall_ahead(stage: Stage) -> bool:
+    """A wall stands ahead."""
+    return stage.outcome.reason is Reason.BLOCKED
+
+
+def not_yet(stage: Stage) -> bool:
+    """Nothing, and there is another stage."""
+    return stage.outcome.reason is Reason.DONE and not stage.is_last
+
+
+def nothing(stage: Stage) -> bool:
+    """Nothing up to 2 r0."""
+    return stage.outcome.reason is Reason.DONE and stage.is_last
+
+
 # fmt: off
 EXPLORE_OPENING = Automaton((State.AF,), (
-    #   in         when       go to
-    Row(State.AF,  seen,      State.FAR),
-    Row(State.AF,  narrowed,  State.FAR),
-    Row(State.AF,  blocked,   State.END),
-    Row(State.AF,  done,      State.GONE),
+    #   in         when        go to
+    Row(State.AF,  far_side,   State.FAR),
+    Row(State.AF,  wall_ahead, State.END),
+    Row(State.AF,  not_yet,    State.AF),
+    Row(State.AF,  nothing,    State.GONE),
 ), (State.FAR, State.END, State.GONE))
 # fmt: on
 
@@ -77,8 +113,6 @@ class Opening:
     """How far the robot has gone since the opening's beginning, in metres."""
     is_flush: bool
     """Whether a wall ahead is its far side."""
-    end: Outcome
-    """The last outcome."""
 
 
 def explore_opening(
@@ -109,19 +143,33 @@ def explore_opening(
     """
     in_hall = otherwise is VertexType.PORTAL
     most = 2 * parameters.r0
-    approach = Approach(
+    keep = parameters.r_min if in_hall else parameters.r0
+    least = 2 * parameters.r_w - ROUNDING
+    drive = Approach(
         (Sensor.LEFT, Sensor.RIGHT) if in_hall else (Sensor.of_side(side),),
         within=most if in_hall else parameters.r_max,
-        keep=parameters.r_min if in_hall else parameters.r0,
-        limit=most - behind,
+        keep=keep,
         until=Until.HALL if in_hall else Until.SEEN,
     )
-    path = yield from perform(EXPLORE_OPENING, {State.AF: approach}, State.AF)
-    end, outcome = path[-1]
-    distance = outcome.distance
-    width = behind + distance + (outcome.readings.front if end is State.END else 0.0)
-    if end is State.GONE or width > most:
+    marks = sorted(max(behind, at) for at in (least - keep, least, most - keep, most))
+
+    def forward(path: Path[State]) -> Behaviour[Stage]:
+        k = len(path)
+        begun = marks[k - 1] if k else behind
+        outcome = yield replace(drive, limit=marks[k] - begun)
+        return Stage(outcome, marks[k], k == len(marks) - 1)
+
+    path = yield from perform(EXPLORE_OPENING, {State.AF: forward}, State.AF)
+    *done_, (end, last) = path
+    distance = sum(stage.outcome.distance for _, stage in done_)
+    is_flush = end is State.END
+    ahead = last.outcome.readings.front if is_flush else 0.0
+    width = behind + distance + ahead
+    if end is State.GONE or (is_flush and last.upto > most - keep):
         found = otherwise
+    elif is_flush and distance == 0:
+        found = VertexType.ILL if width < least else VertexType.SPLIT
     else:
-        found = VertexType.ILL if width < 2 * parameters.r_w else VertexType.SPLIT
-    return Opening(found, width, distance, end is State.END, outcome)
+        is_slit = last.upto <= (least - keep if is_flush else least)
+        found = VertexType.ILL if is_slit else VertexType.SPLIT
+    return Opening(found, width, distance, is_flush)

@@ -21,7 +21,8 @@
 | EXO | no far side | MB_EDGE |
 | MB_MIDDLE | done | SPLIT |
 | MB_BEFORE | done | SPLIT_AHEAD |
-| MB_EDGE | done | EXT |
+| MB_EDGE | done | MF_PAST |
+| MF_PAST | done | EXT |
 | CORNER | along | SPLIT_BESIDE |
 | CORNER | across | SPLIT_ACROSS |
 | CORNER | no hall | INT |
@@ -97,6 +98,8 @@ class State(Enum):
     MB_MIDDLE = auto()
     MB_BEFORE = auto()
     MB_EDGE = auto()
+    MF_PAST = auto()
+    """r0 past the edge where the wall ended."""
     CORNER = auto()
     INT = auto()
     EXT = auto()
@@ -163,7 +166,8 @@ FOLLOW_BROKEN_WALL = Automaton((State.MF_BESIDE, State.AF_BESIDE, State.FM), (
     Row(State.EXO,        no_far_side,    State.MB_EDGE),
     Row(State.MB_MIDDLE,  done,           State.SPLIT),
     Row(State.MB_BEFORE,  done,           State.SPLIT_AHEAD),
-    Row(State.MB_EDGE,    done,           State.EXT),
+    Row(State.MB_EDGE,    done,           State.MF_PAST),
+    Row(State.MF_PAST,    done,           State.EXT),
     Row(State.CORNER,     along,          State.SPLIT_BESIDE),
     Row(State.CORNER,     across,         State.SPLIT_ACROSS),
     Row(State.CORNER,     no_hall,        State.INT),
@@ -222,11 +226,10 @@ def follow_broken_wall(
         return explore_opening(parameters, side, VertexType.EXT)
 
     def to_the_middle(path: Path[State]) -> Move:
-        return Move(path[-1][1].width / 2, Direction.BACKWARD)
+        return _back(path[-1][1].width / 2)
 
-    def past_the_edge(path: Path[State]) -> Move:
-        gone = path[-1][1].distance - r0
-        return Move(abs(gone), Direction.BACKWARD if gone > 0 else Direction.FORWARD)
+    def to_the_edge(path: Path[State]) -> Move:
+        return _back(path[-1][1].distance)
 
     def examine(_: Path[State]) -> Behaviour[corner.State]:
         return corner.examine_corner(parameters, side)
@@ -241,7 +244,8 @@ def follow_broken_wall(
         State.EXO: open_up,
         State.MB_MIDDLE: to_the_middle,
         State.MB_BEFORE: Move(r0, Direction.BACKWARD),
-        State.MB_EDGE: past_the_edge,
+        State.MB_EDGE: to_the_edge,
+        State.MF_PAST: Move(r0),
         State.CORNER: examine,
     }
     path = yield from perform(FOLLOW_BROKEN_WALL, actions, START[place])
@@ -257,6 +261,10 @@ def follow_broken_wall(
         clearance=min((outcome.clearance for outcome in outcomes), default=math.inf),
         facing=side.opposite.value if turned_away else 0,
     )
+
+
+def _back(distance: float) -> Move:
+    return Move(distance, Direction.BACKWARD, by_odometry=True)
 
 
 def _way(state: State, result: Any) -> float:

@@ -163,4 +163,5 @@ def _junction(
 
 
 def _straight(way: float) -> Move:
-    return Move(abs(way), Direction.FORWARD if way >= 0 else Direction.BACKWARD)
+    direction = Direction.FORWARD if way >= 0 else Direction.BACKWARD
+    return Move(abs(way), direction, by_odometry=True)

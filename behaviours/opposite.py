@@ -97,9 +97,9 @@ def opposite(
         return probe(parameters, side.opposite, width)
 
     actions = {
-        State.MB: Move(width / 2, Direction.BACKWARD),
+        State.MB: Move(width / 2, Direction.BACKWARD, by_odometry=True),
         State.PROBE: look,
-        State.MF: Move(width / 2),
+        State.MF: Move(width / 2, by_odometry=True),
     }
     path = yield from perform(OPPOSITE, actions, State.MB)
     openings: tuple[tuple[float, Opening], ...] = path[1][1]

@@ -171,6 +171,9 @@ class Move:
     direction: Direction = Direction.FORWARD
     keep: float = 0.0
     """Clearance ahead, in metres, that ends the move as BLOCKED (forward only)."""
+    by_odometry: bool = False
+    """Whether the distance comes from outcomes since the last turn, so that the
+    odometer's error in it is to be made again, as on the way back to a place."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -123,7 +123,7 @@ def probe(
         return explore_opening(parameters, side, VertexType.INT, within)
 
     def back(path: Path[State]) -> Move:
-        return Move(_gone(path), Direction.BACKWARD)
+        return Move(_gone(path), Direction.BACKWARD, by_odometry=True)
 
     actions = {State.AF: look, State.EXO: open_up, State.MB: back}
     path = yield from perform(PROBE, actions, State.AF)

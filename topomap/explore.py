@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from behaviours.follow_broken_wall import follow_broken_wall
+from behaviours.follow_hall import follow_hall
+from behaviours.follow_wall import Leg
 from behaviours.move_to_wall import move_to_wall
+from behaviours.port import Approach, Sensor
 from behaviours.travel import travel
 from behaviours.ways import Arrival, Way, turned
 from evidence.walls import Decision, LoopCloser, Wall
+from topomap.boundary import Walk
 from topomap.chart import Chart, Place, behaviour_of
 from topomap.errors import JobError
 from topomap.recognition import Recognition, recognise
@@ -23,7 +27,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Exploration", "explore_halls"]
 
-MakeCloser = Callable[[], LoopCloser]
+ERROR = 1e-3
+"""A vertex is taken for another, or for a new one, when it is less likely wrong."""
 
 
 @dataclass(slots=True)
@@ -31,7 +36,8 @@ class Exploration:
     """What a robot knows while it explores, and where it is."""
 
     parameters: Parameters
-    make_closer: MakeCloser
+    closer: LoopCloser
+    """Decides when a base loop is closed; begun anew for each."""
     sigma: float
     max_walls: int
     chart: Chart = field(default_factory=Chart)
@@ -43,14 +49,14 @@ class Exploration:
     """How many edges it has walked."""
     closed: bool = True
     """Whether every loop that it began was closed."""
-    decisions: list[Decision] = field(default_factory=list)
-    """What was made of each wall of each loop, in order."""
+    loops: list[Walk] = field(default_factory=list)
+    """The base loops, as they were walked."""
     recognitions: list[Recognition] = field(default_factory=list)
     """What was made of each place that might be one met before."""
 
 
 def explore_halls(
-    parameters: Parameters, make_closer: MakeCloser, sigma: float, max_walls: int
+    parameters: Parameters, closer: LoopCloser, sigma: float, max_walls: int
 ) -> Behaviour[Exploration]:
     """Explore a world of open spaces and halls to the end.
 
@@ -63,8 +69,8 @@ def explore_halls(
     ----------
     parameters : Parameters
         The lengths the robot keeps.
-    make_closer : callable
-        Returns a new `LoopCloser`, one for each base loop.
+    closer : LoopCloser
+        Decides when a base loop is closed; it is begun anew for each.
     sigma : float
         Standard deviation of a measured length, as a part of the length.
     max_walls : int
@@ -81,22 +87,30 @@ def explore_halls(
         From the running coroutine, where the robot comes to a place that its map
         does not have there.
     """
-    found = Exploration(parameters, make_closer, sigma, max_walls)
-    yield from move_to_wall(parameters)
-    arrival = yield from follow_broken_wall(parameters, None)
+    found = Exploration(parameters, closer, sigma, max_walls)
+    arrival = yield from _first_vertex(parameters)
     found.here = found.chart.add_place(Place(arrival.type, arrival.ways))
-    found.heading = arrival.facing
-    yield from _close_loop(found)
+    found.heading = arrival.facing % 4
+    if _is_open_loop(found.chart, found.here):
+        yield from _close_loop(found)
     while found.closed and found.walls < max_walls:
         route = found.chart.nearest_unexplored(found.here)
         if route is None:
             return found
-        *known, (_, way) = route
-        for _, quarters in known:
-            yield from _go(found, quarters)
-        yield from _venture(found, way)
+        yield from _goto(found, route[0])
+        yield from _venture(found, route[1])
     found.closed = False
     return found
+
+
+def _first_vertex(parameters: Parameters) -> Behaviour[Arrival]:
+    """MTW and WF to the first vertex; HF where the robot finds itself in a hall."""
+    outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
+    width = outcome.readings.left + outcome.readings.right
+    if width > 2 * parameters.r0:
+        yield from move_to_wall(parameters)
+        return (yield from follow_broken_wall(parameters, None))
+    return (yield from follow_hall(parameters))
 
 
 def _leave(
@@ -135,39 +149,101 @@ def _go(found: Exploration, quarters: int) -> Behaviour[None]:
 
 def _venture(found: Exploration, quarters: int) -> Behaviour[None]:
     """Take an unexplored exit, and find out where it leads."""
+    there = yield from _step_out(found, quarters)
+    yield from _identify(found, there)
+
+
+def _step_out(found: Exploration, quarters: int) -> Behaviour[int]:
+    """Take an unexplored exit to a vertex that is new, until it is recognised."""
     chart, source = found.chart, found.here
     way = chart.places[source].ways[quarters]
     place, arrival = yield from _leave(found, chart.places[source], quarters)
     back = (quarters + 2) % 4
-    recognition = recognise(
-        chart, found.parameters, found.sigma, (source, quarters), place, arrival
-    )
-    found.recognitions.append(recognition)
-    is_new = recognition.vertex is None
-    there = chart.add_place(place) if is_new else recognition.vertex
+    there = chart.add_place(place)
     behaviour = behaviour_of(way, place.ways[back])
     chart.add_link((source, quarters), (there, back), behaviour).measure(arrival)
     found.here = there
-    if is_new and Way.WALL_RIGHT in place.ways:
-        yield from _close_loop(found)
+    return there
+
+
+def _identify(found: Exploration, vertex: int) -> Behaviour[None]:
+    """Find out whether a vertex is one met before, walking on where that is needed.
+
+    Where the evidence is too weak, the base loop is closed first, if there is one;
+    then the robot takes ways that it knows, if the vertex is what it may be.
+    """
+    chart = found.chart
+    unsure = [vertex]
+    while unsure and found.closed and found.walls < found.max_walls:
+        vertex = unsure[-1]
+        if vertex not in chart.places:
+            unsure.pop()
+            continue
+        recognition = recognise(chart, found.parameters, found.sigma, vertex)
+        found.recognitions.append(recognition)
+        best, p = max(recognition.candidates, key=itemgetter(1), default=(None, 0.0))
+        if p < 1 - ERROR and recognition.new < 1 - ERROR:
+            step = _telling_way(chart, vertex, best)
+            if _is_open_loop(chart, vertex):
+                yield from _goto(found, vertex)
+                yield from _close_loop(found)
+                continue
+            if step is not None:
+                yield from _goto(found, step[0])
+                unsure.insert(-1, (yield from _step_out(found, step[1])))
+                continue
+        unsure.pop()
+        if p > recognition.new:
+            pairs = chart.pairs(vertex, best)
+            chart.join(pairs)
+            found.here = pairs.get(found.here, found.here)
+        elif _is_open_loop(chart, vertex):
+            yield from _goto(found, vertex)
+            yield from _close_loop(found)
+
+
+def _goto(found: Exploration, vertex: int) -> Behaviour[None]:
+    """GOTO: drive to a vertex by the shortest way in the map."""
+    for _, quarters in found.chart.route(found.here, vertex):
+        yield from _go(found, quarters)
+
+
+def _is_open_loop(chart: Chart, vertex: int) -> bool:
+    """Return whether a vertex is on a base loop that has not been walked."""
+    ways = chart.places[vertex].ways
+    return (
+        Way.WALL_RIGHT in ways and (vertex, ways.index(Way.WALL_RIGHT)) not in chart.links
+    )
+
+
+def _telling_way(chart: Chart, vertex: int, other: int) -> tuple[int, int] | None:
+    """Return an exit not taken yet that the map tells of, if two vertices are one."""
+    for a, b in (chart.pairs(vertex, other) or {}).items():
+        for quarters in range(4):
+            if (b, quarters) in chart.links and (a, quarters) not in chart.links:
+                return a, quarters
+    return None
 
 
 def _close_loop(found: Exploration) -> Behaviour[None]:
     """Walk along the wall, the wall on the right, until the loop is closed."""
     places = [found.chart.places[found.here]]
-    arrivals: list[tuple[int, Arrival]] = []
-    closer = found.make_closer()
-    closer.begin(*_corner(places[0]))
+    arrivals: list[Arrival] = []
+    decisions: list[Decision] = []
+    found.closer.begin(*_corner(places[0]))
     period = None
     while period is None and found.walls < found.max_walls:
         quarters = places[-1].ways.index(Way.WALL_RIGHT)
         place, arrival = yield from _leave(found, places[-1], quarters)
         places.append(place)
-        arrivals.append((quarters, arrival))
-        decision = closer.observe(Wall(arrival.length, *_corner(place), arrival.shift))
-        found.decisions.append(decision)
-        period = decision.period
+        arrivals.append(arrival)
+        decisions.append(
+            found.closer.observe(Wall(arrival.length, *_corner(place), arrival.shift))
+        )
+        period = decisions[-1].period
     found.closed = period is not None
+    legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
+    found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
     _fold(found, places, arrivals, period or len(places))
 
 
@@ -189,13 +265,14 @@ def _corner(place: Place) -> tuple[str, float]:
 def _fold(
     found: Exploration,
     places: list[Place],
-    arrivals: list[tuple[int, Arrival]],
+    arrivals: list[Arrival],
     period: int,
 ) -> None:
     """Put the walls of a loop into the map, each once with all its lengths."""
     chart = found.chart
     numbers = [found.here, *map(chart.add_place, places[1:period])]
-    for k, (quarters, arrival) in enumerate(arrivals):
+    for k, arrival in enumerate(arrivals):
+        quarters = places[k].ways.index(Way.WALL_RIGHT)
         end = numbers[k % period], quarters
         link = chart.links.get(end)
         if link is None:

@@ -4,27 +4,31 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from behaviours.automaton import UnforeseenError
 from behaviours.port import run
+from behaviours.vertices import VertexType
 from topomap.bodies import body_parameters, make_body
-from topomap.boundary import map_boundary
+from topomap.boundary import Walk, map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
+from topomap.embedding import embedded
 from topomap.errors import InputError, JobError
+from topomap.explore import explore_halls
 from topomap.folding import fold
 from topomap.truth import true_maps
-from worlds.fit import check_fit
+from worlds.fit import is_open
 from worlds.starts import check_start, choose_start
 
 if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.parameters import Parameters
+    from behaviours.port import Body
     from evidence.walls import LoopCloser
-    from topomap.boundary import Walk
     from topomap.comparison import Comparison
+    from topomap.recognition import Recognition
     from topomap.topological_map import TopologicalMap
     from worlds.pose import Pose
     from worlds.world import World
@@ -47,8 +51,12 @@ class Build:
     """Whether the robot decided that it had come round."""
     comparison: Comparison
     """With the world's truth."""
-    walk: Walk
-    """Every wall walked, and what was made of it."""
+    loops: tuple[Walk, ...]
+    """Every base loop as it was walked, and what was made of each wall."""
+    recognitions: tuple[Recognition, ...]
+    """What was made of vertices beyond halls that may be earlier ones."""
+    walls: int
+    """How many edges were walked, known ones included."""
     start: Pose
     """Where the robot was set down."""
     travelled: float
@@ -65,14 +73,24 @@ class Build:
 
     @property
     def hypotheses(self) -> int:
-        """How many closures were ever thought possible."""
-        return len(
-            {
-                hypothesis.period
-                for decision in self.walk.decisions
-                for hypothesis in decision.hypotheses
-            }
-        )
+        """How many closures and recognitions were ever thought possible."""
+        closures = {
+            (k, hypothesis.period)
+            for k, walk in enumerate(self.loops)
+            for decision in walk.decisions
+            for hypothesis in decision.hypotheses
+        }
+        recognised = {
+            (found.vertex, candidate)
+            for found in self.recognitions
+            for candidate, _ in found.candidates
+        }
+        return len(closures) + len(recognised)
+
+    @property
+    def walk(self) -> Walk:
+        """The base loop that was walked first; an empty one if there is none."""
+        return self.loops[0] if self.loops else Walk(VertexType.TERM, (), ())
 
 
 def build_map(
@@ -86,12 +104,13 @@ def build_map(
     closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
 ) -> Build:
-    """Set a robot down in a world and let it map the boundary it first meets.
+    """Set a robot down in a world and let it map all it can reach along walls.
 
     Parameters
     ----------
     world : World
-        Rectilinear, all passages wider than 2 r0.
+        Rectilinear. Where all passages are wider than 2 r0 there is one boundary
+        loop to walk; else the robot explores rooms and halls, 2 r_w to 2 r0 wide.
     rng : numpy.random.Generator
         Draws the start, where none is given, and all of the body's errors.
     body : {"ideal", "physical"} or a profile's name
@@ -145,7 +164,7 @@ def build_map(
         raise InputError("", "max_walls", max_walls, "a number of at least 1")
     start_rng, body_rng = rng.spawn(2)
     parameters = parameters or body_parameters(body)
-    check_fit(world, parameters)
+    truth = true_maps(world, parameters)
     if start is None:
         start = choose_start(world, parameters, start_rng)
     check_start(world, parameters, start)
@@ -153,18 +172,44 @@ def build_map(
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )
+    explore = _explore_open if is_open(world, parameters) else _explore_halls
     try:
-        walk = run(map_boundary(parameters, closer, max_walls), robot)
+        found = explore(robot, closer, sigma, max_walls)
     except UnforeseenError as error:
         raise JobError(str(error)) from error
-    chart = fold(walk, parameters, sigma)
     return Build(
-        chart,
-        walk.period is not None,
-        compare_maps(chart, *true_maps(world, parameters)),
-        walk,
-        start,
-        robot.travelled,
-        robot.clock,
-        robot.collisions,
+        comparison=compare_maps(found["map"], *truth),
+        start=start,
+        travelled=robot.travelled,
+        simulated=robot.clock,
+        collisions=robot.collisions,
+        **found,
     )
+
+
+def _explore_open(
+    robot: Body, closer: LoopCloser, sigma: float, max_walls: int
+) -> dict[str, Any]:
+    """Map the one boundary loop that is all there is without halls, [K] 3.2.2."""
+    walk = run(map_boundary(robot.parameters, closer, max_walls), robot)
+    return {
+        "map": fold(walk, robot.parameters, sigma),
+        "closed": walk.period is not None,
+        "loops": (walk,),
+        "recognitions": (),
+        "walls": len(walk.legs),
+    }
+
+
+def _explore_halls(
+    robot: Body, closer: LoopCloser, sigma: float, max_walls: int
+) -> dict[str, Any]:
+    """Map loops and the halls between them, until no exit is unexplored."""
+    found = run(explore_halls(robot.parameters, closer, sigma, max_walls), robot)
+    return {
+        "map": embedded(found.chart.as_map(robot.parameters, sigma)),
+        "closed": found.closed,
+        "loops": tuple(found.loops),
+        "recognitions": tuple(found.recognitions),
+        "walls": found.walls,
+    }

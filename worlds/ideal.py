@@ -192,12 +192,15 @@ class IdealBody:
         return max(0.0, ahead - keep)
 
     def _move(self, move: Move) -> Outcome:
+        way = move.distance
+        if move.by_odometry and self._scale:
+            way /= self._scale
         if move.direction is Direction.BACKWARD:
-            return self._retreat(move.distance, Reason.DONE)
+            return self._retreat(way, Reason.DONE)
         room = self._room_ahead(move.keep)
-        if room < move.distance - EPS:
+        if room < way - EPS:
             return self._advance(room, Reason.BLOCKED)
-        return self._advance(move.distance, Reason.DONE)
+        return self._advance(way, Reason.DONE)
 
     def _approach(self, approach: Approach) -> Outcome:
         sense = approach.direction.value
