@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from worlds.errors import WorldError
+from worlds.hall_worlds import HALL_WORLDS
 from worlds.random_worlds import RANDOM
 from worlds.shapes import SHAPES
 from worlds.world import World
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["kinds", "make"]
 
-_KINDS = {kind.name: kind for kind in (RANDOM, *SHAPES)}
+_KINDS = {kind.name: kind for kind in (RANDOM, *SHAPES, *HALL_WORLDS)}
 
 
 def kinds() -> dict[str, Kind]:
