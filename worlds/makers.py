@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from worlds.errors import WorldError
-from worlds.hall_worlds import HALL_WORLDS
+from worlds.floors.kinds import HALL_WORLDS
 from worlds.random_worlds import RANDOM
 from worlds.shapes import SHAPES
 from worlds.world import World

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 
 import numpy as np
 import shapely
 
-from worlds.floor import Edge, Floor, Node, woven
-from worlds.floor_layout import PITCH, Style, lay_out
+from worlds.floors.floor import Floor, Node
+from worlds.floors.layout import lay_out
+from worlds.floors.lengths import PITCH, Style
+from worlds.floors.weaving import lattice, woven
 from worlds.kind import Kind, Option
 from worlds.world import World, make_world
 
@@ -24,16 +25,6 @@ DEAD_ENDS = Option("dead_ends", 0.5, 0.0, 1.0, "part of the dead ends that is ke
 VARIATION = Option(
     "variation", 0.4, 0.0, 0.9, "each length is drawn within this part of its nominal"
 )
-
-
-def _lattice(columns: int, rows: int) -> Iterator[Edge]:
-    """Yield every edge of a lattice."""
-    for column in range(columns):
-        for row in range(rows):
-            if column + 1 < columns:
-                yield (column, row), 0
-            if row + 1 < rows:
-                yield (column, row), 1
 
 
 def _nodes(rng: np.random.Generator, columns: int, rows: int) -> list[Node]:
@@ -75,7 +66,7 @@ def _rooms(
     columns, rows = _shape(rng, math.ceil(rooms / 0.75))
     places = _nodes(rng, columns, rows)[:rooms]
     floor = woven(
-        rng, [(at, at) for at in places], _lattice(columns, rows), loops, dead_ends
+        rng, [(at, at) for at in places], lattice(columns, rows), loops, dead_ends
     )
     style = Style(room, hall, variation, changes, corners)
     return _built(rng, "rooms", floor, style)
@@ -97,7 +88,7 @@ def _halls(
     """Make few of a lattice's nodes rooms."""
     places = _nodes(rng, columns, rows)[:rooms]
     floor = woven(
-        rng, [(at, at) for at in places], _lattice(columns, rows), loops, dead_ends
+        rng, [(at, at) for at in places], lattice(columns, rows), loops, dead_ends
     )
     style = Style(room, hall, variation, changes, corners)
     return _built(rng, "halls", floor, style)

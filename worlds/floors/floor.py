@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeAlias
 
-import numpy as np
-
-__all__ = ["Block", "Edge", "Floor", "Node", "Run", "runs", "woven"]
+__all__ = ["Block", "Edge", "Floor", "Node", "Run", "nodes_of", "runs", "step"]
 
 Node: TypeAlias = tuple[int, int]
 """A column and a row of the lattice, from 0."""
@@ -65,6 +63,13 @@ class Run:
         """Return the node at a stop."""
         return (stop, self.line) if self.axis == 0 else (self.line, stop)
 
+    @property
+    def edges(self) -> list[Edge]:
+        """Return the edges that it takes, in their order."""
+        return [
+            (self.node(at), self.axis) for at in range(self.stops[0], self.stops[-1])
+        ]
+
 
 def step(node: Node, axis: int, by: int = 1) -> Node:
     """Return the node that lies some steps along an axis."""
@@ -81,6 +86,15 @@ def runs(floor: Floor) -> list[Run]:
     """Return every straight run of halls of a floor, in a fixed order.
 
     A run ends at rooms; a junction of halls does not end it if it goes on behind.
+
+    Examples
+    --------
+    A hall from a room past a branch to its end:
+
+    >>> floor = Floor((((0, 0), (0, 0)),), frozenset({((0, 0), 0), ((1, 0), 0),
+    ...                                               ((1, 0), 1)}))
+    >>> runs(floor)  # doctest: +NORMALIZE_WHITESPACE
+    [Run(axis=0, line=0, stops=(0, 1, 2)), Run(axis=1, line=1, stops=(0, 1))]
     """
     found = []
     for node, axis in sorted(floor.halls):
@@ -97,77 +111,3 @@ def runs(floor: Floor) -> list[Run]:
                 break
         found.append(Run(axis, node[1 - axis], tuple(stops)))
     return found
-
-
-def woven(
-    rng: np.random.Generator,
-    rooms: Iterable[Block],
-    edges: Iterable[Edge],
-    loops: int,
-    dead_ends: float,
-) -> Floor:
-    """Join all rooms by halls drawn from some edges of a lattice.
-
-    Parameters
-    ----------
-    rng : numpy.random.Generator
-        Draws which halls there are.
-    rooms : iterable of Block
-        Disjoint.
-    edges : iterable of Edge
-        Where halls may be; those inside a room are passed over.
-    loops : int
-        How many halls there are beyond a tree, as far as there are edges.
-    dead_ends : float
-        Which part of the dead ends stays; the others are filled in.
-
-    Returns
-    -------
-    Floor
-        Connected, if the edges are.
-    """
-    blocks = tuple(rooms)
-    whole = Floor(blocks, frozenset())
-    group: dict[Node | int, Node | int] = {}
-
-    def find(node: Node) -> Node | int:
-        key: Node | int = whole.room_at.get(node, node)
-        while (up := group.get(key, key)) != key:
-            key = up
-        return key
-
-    kept: list[Edge] = []
-    extra: list[Edge] = []
-    around = sorted(e for e in set(edges) if not _is_inside(whole, e))
-    for k in rng.permutation(len(around)):
-        edge = around[int(k)]
-        ends = find(edge[0]), find(step(*edge))
-        if ends[0] == ends[1]:
-            extra.append(edge)
-        else:
-            group[ends[0]] = ends[1]
-            kept.append(edge)
-    floor = Floor(blocks, frozenset(kept + extra[:loops]))
-    return _pruned(rng, floor, dead_ends)
-
-
-def _is_inside(floor: Floor, edge: Edge) -> bool:
-    room = floor.room_at.get(edge[0])
-    return room is not None and room == floor.room_at.get(step(*edge))
-
-
-def _pruned(rng: np.random.Generator, floor: Floor, dead_ends: float) -> Floor:
-    """Fill in dead ends, each back to the next junction or room."""
-    at: dict[Node, list[Edge]] = {}
-    for edge in sorted(floor.halls):
-        at.setdefault(edge[0], []).append(edge)
-        at.setdefault(step(*edge), []).append(edge)
-    for tip in sorted(at):
-        if tip in floor.room_at or len(at[tip]) != 1 or rng.random() < dead_ends:
-            continue
-        node = tip
-        while len(at[node]) == 1 and node not in floor.room_at:
-            edge = at[node].pop()
-            node = step(*edge) if edge[0] == node else edge[0]
-            at[node].remove(edge)
-    return Floor(floor.rooms, frozenset(edge for some in at.values() for edge in some))

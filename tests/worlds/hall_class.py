@@ -1,0 +1,191 @@
+"""Whether a world is one of halls and rooms, by brute force on the lines of its walls.
+
+Cells between neighbouring wall lines are free or not. A free cell whose free way
+along one axis is at most 2 r0 is a hall's; the other free cells make rooms, or, where
+they fit into 2 r0 by 2 r0, junctions.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from scipy import ndimage
+
+R0, R_W = 0.3, 0.2
+
+
+@dataclass
+class Piece:
+    """A hall, junction or room: a set of cells."""
+
+    cells: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+
+def census(world):
+    """Return the pieces of a world, and the ends of each hall.
+
+    Raises AssertionError where the world is none of halls and rooms.
+    """
+    xs, ys, free = _cells(world)
+    ways = np.stack([_ways(free, xs), _ways(free.T, ys).T])
+    narrow = free & (ways <= 2 * R0)
+    assert not narrow.all(axis=0).any(), "a place no longer than wide"
+    halls = [p for axis in (0, 1) for p in _pieces(narrow[1 - axis], xs, ys)]
+    axes = [axis for axis in (0, 1) for _ in _pieces(narrow[1 - axis], xs, ys)]
+    others = _pieces(free & ~narrow.any(axis=0), xs, ys)
+    junctions = [p for p in others if (p.high - p.low <= 2 * R0).all()]
+    rooms = [p for p in others if (p.high - p.low > 2 * R0).any()]
+    ends = [
+        _check_hall(p, axis, xs, ys, junctions, rooms, world)
+        for p, axis in zip(halls, axes, strict=True)
+    ]
+    _check_junctions(halls, axes, ends, len(junctions))
+    corners = [at for pair in ends for end in pair for at in end[2]]
+    assert len(set(corners)) == len(corners), "two halls at one corner"
+    return rooms, junctions, halls, axes, ends
+
+
+def check_space(world):
+    """Check passages in rooms and the thickness of what is solid, by opening sets."""
+    rooms = _opened(world.free_space, R0 + 1e-4)
+    spared = rooms.difference(_opened(world.free_space, R0 + 0.05))
+    assert spared.area < 1e-6, "a passage in a room between 0.6 and 0.7 m"
+    x0, y0, x1, y1 = world.free_space.bounds
+    solid = shapely.box(x0 - 1, y0 - 1, x1 + 1, y1 + 1).difference(world.free_space)
+    assert solid.difference(_opened(solid, 0.05 - 1e-6)).area < 1e-6, "thin wall"
+    for space in getattr(rooms, "geoms", [rooms]):
+        width, height = np.subtract(space.bounds[2:], space.bounds[:2])
+        assert min(width, height) >= 1.2 - 1e-9, "a small room"
+
+
+def _opened(space, by):
+    square = {"join_style": "mitre", "mitre_limit": 2}
+    return space.buffer(-by, **square).buffer(by, **square)
+
+
+def _cells(world):
+    """Return the wall lines of both axes, and which cells between them are free."""
+    corners = np.concatenate(world.rings)
+    xs, ys = (np.unique(corners[:, axis]) for axis in (0, 1))
+    assert min(np.diff(xs).min(), np.diff(ys).min()) > 1e-3, "walls nearly in line"
+    middle = np.stack(
+        np.meshgrid((xs[1:] + xs[:-1]) / 2, (ys[1:] + ys[:-1]) / 2, indexing="ij")
+    )
+    return xs, ys, shapely.contains_xy(world.free_space, *middle)
+
+
+def _ways(free, lines):
+    """Return how long the free way through each cell is along the first axis."""
+    ways = np.zeros(free.shape)
+    for column in range(free.shape[1]):
+        parts, count = ndimage.label(free[:, column])
+        for k in range(1, count + 1):
+            (at,) = np.nonzero(parts == k)
+            ways[at, column] = lines[at[-1] + 1] - lines[at[0]]
+    return ways
+
+
+def _pieces(cells, xs, ys):
+    parts, count = ndimage.label(cells)
+    pieces = []
+    for i, j in ndimage.find_objects(parts, count):
+        pieces.append(
+            Piece(
+                parts == len(pieces) + 1,
+                np.array([xs[i.start], ys[j.start]]),
+                np.array([xs[i.stop], ys[j.stop]]),
+            )
+        )
+    return pieces
+
+
+def _check_hall(piece, axis, xs, ys, junctions, rooms, world):
+    """Check a hall, and return what is at its ends."""
+    along, across = (xs, ys) if axis == 0 else (ys, xs)
+    cells = piece.cells if axis == 0 else piece.cells.T
+    columns = np.flatnonzero(cells.any(axis=1))
+    spans = []
+    for k in columns:
+        (at,) = np.nonzero(cells[k])
+        assert (np.diff(at) == 1).all(), "a hall in two parts"
+        spans.append((across[at[0]], across[at[-1] + 1]))
+    widths = np.array([high - low for low, high in spans])
+    assert widths.min() >= 2 * R_W + 0.03 - 1e-9, "a hall too narrow"
+    assert widths.max() <= 2 * R0 - 0.03 + 1e-9, "a hall too wide"
+    middles = np.array([low + high for low, high in spans]) / 2
+    assert np.ptp(middles) < 1e-9, "a hall that leaves its middle"
+    changes = [k for k in range(1, len(columns)) if spans[k] != spans[k - 1]]
+    lines = along[[columns[0], *(columns[k] for k in changes), columns[-1] + 1]]
+    if changes:
+        assert np.diff(lines).min() >= 0.4, "a hall that changes too soon"
+    ends = [
+        _end(
+            axis, 0, lines[0], spans[0], cells, columns[0] - 1, junctions, rooms, world
+        ),
+        _end(
+            axis,
+            1,
+            lines[-1],
+            spans[-1],
+            cells,
+            columns[-1] + 1,
+            junctions,
+            rooms,
+            world,
+        ),
+    ]
+    kinds = {kind for kind, *_ in ends}
+    least = 0.5 if None in kinds else 0.3
+    assert lines[-1] - lines[0] >= least, "a hall too short"
+    assert kinds != {None}, "a hall without a way out"
+    return ends
+
+
+def _end(axis, side, line, span, cells, beside, junctions, rooms, world):
+    """Return what is beside a hall's end, which one, and the corners it is at."""
+    at = cells[beside + (1 if side == 0 else -1)]
+    middle = round(sum(span) / 2, 6)
+    for kind, pieces in (("junction", junctions), ("room", rooms)):
+        for k, piece in enumerate(pieces):
+            there = piece.cells if axis == 0 else piece.cells.T
+            if 0 <= beside < len(there) and there[beside][at].any():
+                assert there[beside][at].all(), "a skew end"
+                corners = []
+                if kind == "room":
+                    corners = _check_mouth(axis, line, span, world)
+                return kind, k, corners, side, middle
+    return None, None, [], side, middle
+
+
+def _check_mouth(axis, line, span, world):
+    """Check how far the room's wall goes on beside a mouth; return where it does not."""
+    flush = []
+    for at in span:
+        point = (line, at) if axis == 0 else (at, line)
+        ring = next((r for r in world.rings if point in r), None)
+        if ring is None:
+            flush.append(point)
+            continue
+        k = ring.index(point)
+        sides = ring[k - 1], ring[(k + 1) % len(ring)]
+        (wall,) = [q for q in sides if q[axis] == line]
+        assert abs(wall[1 - axis] - at) >= R0 + 0.05, "a mouth near a corner"
+    assert len(flush) < 2, "a mouth without a wall"
+    return flush
+
+
+def _check_junctions(halls, axes, ends, count):
+    leaving = [{} for _ in range(count)]
+    for axis, pair in zip(axes, ends, strict=True):
+        for kind, k, _, side, middle in pair:
+            if kind == "junction":
+                assert (axis, side) not in leaving[k], "two halls at one side"
+                leaving[k][axis, side] = middle
+    for sides in leaving:
+        used = {axis for axis, _ in sides}
+        assert used == {0, 1}, "a junction of halls in line"
+        for axis in (0, 1):
+            middles = {sides[axis, side] for side in (0, 1) if (axis, side) in sides}
+            assert len(middles) == 1, "halls not in line"
