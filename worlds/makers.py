@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from worlds.errors import WorldError
-from worlds.floors.kinds import HALL_WORLDS
+from worlds.floors.kinds import FLOORS
 from worlds.random_worlds import RANDOM
 from worlds.shapes import SHAPES
 from worlds.world import World
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["kinds", "make"]
 
-_KINDS = {kind.name: kind for kind in (RANDOM, *SHAPES, *HALL_WORLDS)}
+_KINDS = {kind.name: kind for kind in (RANDOM, *SHAPES, *FLOORS)}
 
 
 def kinds() -> dict[str, Kind]:

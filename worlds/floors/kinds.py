@@ -1,75 +1,77 @@
-"""Worlds with halls: rooms joined by halls, networks and mazes of halls."""
+"""Kinds of world with halls: rooms, halls, a maze, an office, a hospital."""
 
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
-import numpy as np
-import shapely
-
-from worlds.floors.floor import Floor, Node
-from worlds.floors.layout import lay_out
-from worlds.floors.lengths import PITCH, Style
+from worlds.floors.build import build
+from worlds.floors.floor import Block, Edge, Floor, Node, step
+from worlds.floors.lengths import Style
 from worlds.floors.weaving import lattice, woven
 from worlds.kind import Kind, Option
-from worlds.world import World, make_world
 
-__all__ = ["HALL_WORLDS"]
+if TYPE_CHECKING:
+    import numpy as np
+
+    from worlds.world import World
+
+__all__ = ["FLOORS"]
 
 LOOPS = Option("loops", 2, 0, 1000, "halls beyond those that join everything, at most")
-ROOM = Option("room", 2.6, 1.5, 100.0, "nominal side of a room, in metres")
-HALL = Option("hall", 0.8, 0.0, 100.0, "mean of what halls have above 0.5 m, in metres")
-CHANGES = Option("changes", 0.15, 0.0, 1.0, "part of the halls that change width")
-CORNERS = Option("corners", 0.3, 0.0, 1.0, "part of the openings at a room's corner")
-DEAD_ENDS = Option("dead_ends", 0.5, 0.0, 1.0, "part of the dead ends that is kept")
-VARIATION = Option(
-    "variation", 0.4, 0.0, 0.9, "each length is drawn within this part of its nominal"
-)
+DEAD_ENDS = Option("dead_ends", 0.5, 0.0, 1.0, "part of the dead ends that stays")
+DOORS = Option("doors", 0.2, 0.0, 1.0, "part of the neighbouring rooms that are joined")
 
 
-def _nodes(rng: np.random.Generator, columns: int, rows: int) -> list[Node]:
-    """Return the nodes of a lattice in random order."""
-    return [divmod(int(k), rows) for k in rng.permutation(columns * rows)]
+def _style(
+    room: float = 2.6,
+    hall: float = 0.6,
+    variation: float = 0.4,
+    islands: float = 0.2,
+    pillars: float = 0.1,
+) -> tuple[Option, ...]:
+    """Return the options of every floor, with these defaults."""
+    return (
+        Option("room", room, 1.5, 100.0, "nominal side of a room, in metres"),
+        Option("hall", hall, 0.0, 100.0, "mean length of halls beyond 0.5, in metres"),
+        Option("variation", variation, 0.0, 0.9, "each length varies by this part"),
+        Option("changes", 0.15, 0.0, 1.0, "part of the halls that change width"),
+        Option("corners", 0.3, 0.0, 1.0, "part of the halls that begin at a corner"),
+        Option("cuts", 0.2, 0.0, 1.0, "part of the rooms that lack a corner"),
+        Option("islands", islands, 0.0, 1.0, "part of the rooms with one by a wall"),
+        Option("pillars", pillars, 0.0, 1.0, "part of the rooms with one in the open"),
+    )
 
 
 def _shape(rng: np.random.Generator, nodes: int) -> tuple[int, int]:
     """Draw columns and rows of a lattice with at least so many nodes."""
-    columns = round(math.sqrt(nodes) * rng.uniform(0.8, 1.4)) or 1
+    columns = max(1, round(math.sqrt(nodes) * rng.uniform(0.8, 1.4)))
     return columns, math.ceil(nodes / columns)
 
 
-def _built(rng: np.random.Generator, name: str, floor: Floor, style: Style) -> World:
-    layout = lay_out(rng, floor, style)
-    space = shapely.union_all(
-        [shapely.box(*box) for box in layout.rooms + layout.halls]
-    )
-
-    def metres(ring: shapely.LinearRing) -> list[tuple[float, float]]:
-        lines = np.rint(shapely.get_coordinates(ring)[:-1]).tolist()
-        return [(round(x * PITCH, 4), round(y * PITCH, 4)) for x, y in lines]
-
-    return make_world(metres(space.exterior), map(metres, space.interiors), name)
+def _places(rng: np.random.Generator, columns: int, rows: int) -> list[Node]:
+    """Return the nodes of a lattice in random order."""
+    return [divmod(int(k), rows) for k in rng.permutation(columns * rows)]
 
 
 def _rooms(
     rng: np.random.Generator,
     rooms: int,
     loops: int,
-    room: float,
-    hall: float,
-    changes: float,
-    corners: float,
     dead_ends: float,
-    variation: float,
+    **style: float,
 ) -> World:
-    """Make a quarter of a lattice's nodes junctions, and the others rooms."""
-    columns, rows = _shape(rng, math.ceil(rooms / 0.75))
-    places = _nodes(rng, columns, rows)[:rooms]
-    floor = woven(
-        rng, [(at, at) for at in places], lattice(columns, rows), loops, dead_ends
-    )
-    style = Style(room, hall, variation, changes, corners)
-    return _built(rng, "rooms", floor, style)
+    """Make rooms of some nodes of a lattice, of a few two at once."""
+    columns, rows = _shape(rng, math.ceil(rooms / 0.7))
+    places = _places(rng, columns, rows)
+    free = set(places[rooms:])
+    blocks: list[Block] = []
+    for node in places[:rooms]:
+        grown = step(node, int(rng.integers(2)))
+        blocks.append((node, grown if grown in free and rng.random() < 0.3 else node))
+        free.discard(blocks[-1][1])
+    floor = woven(rng, blocks, lattice(columns, rows), loops, dead_ends)
+    return build(rng, "rooms", floor, Style(**style))
 
 
 def _halls(
@@ -78,35 +80,87 @@ def _halls(
     rows: int,
     rooms: int,
     loops: int,
-    room: float,
-    hall: float,
-    changes: float,
-    corners: float,
     dead_ends: float,
-    variation: float,
+    **style: float,
 ) -> World:
-    """Make few of a lattice's nodes rooms."""
-    places = _nodes(rng, columns, rows)[:rooms]
-    floor = woven(
-        rng, [(at, at) for at in places], lattice(columns, rows), loops, dead_ends
-    )
-    style = Style(room, hall, variation, changes, corners)
-    return _built(rng, "halls", floor, style)
+    """Make few nodes of a lattice rooms."""
+    blocks = [(node, node) for node in _places(rng, columns, rows)[:rooms]]
+    floor = woven(rng, blocks, lattice(columns, rows), loops, dead_ends)
+    return build(rng, "halls", floor, Style(**style))
 
 
-HALL_WORLDS = (
+def _maze(
+    rng: np.random.Generator, columns: int, rows: int, loops: int, **style: float
+) -> World:
+    """Join all nodes of a lattice by halls, one of them a room."""
+    start = _places(rng, columns, rows)[0]
+    floor = woven(rng, [(start, start)], lattice(columns, rows), loops, 1.0)
+    return build(rng, "maze", floor, Style(**style))
+
+
+def _office(
+    rng: np.random.Generator, rooms: int, doors: float, **style: float
+) -> World:
+    """Set rooms above and below the middle one of three rows, a hall."""
+    nodes = [(k // 2, 2 * (k % 2)) for k in range(rooms)]
+    last = (rooms - 1) // 2
+    halls = {((column, 1), 0) for column in range(last)}
+    halls |= {((column, row // 2), 1) for column, row in nodes}
+    halls |= _neighbours(rng, nodes, doors)
+    if rooms == 1:
+        halls = set()
+    blocks = [(node, node) for node in nodes]
+    return build(rng, "office", Floor(tuple(blocks), frozenset(halls)), Style(**style))
+
+
+def _hospital(
+    rng: np.random.Generator,
+    columns: int,
+    crossings: int,
+    doors: float,
+    **style: float,
+) -> World:
+    """Lay halls in the second and the fourth of five rows.
+
+    The first and the last column of the middle row, and some between, are halls
+    that join the two; the rooms between them open to one hall or to both.
+    """
+    inner = 1 + rng.permutation(columns - 2)[: max(0, crossings - 2)]
+    crossing = {0, columns - 1, *(int(column) for column in inner)}
+    nodes = [
+        (column, row)
+        for column in range(columns)
+        for row in (0, 2, 4)
+        if row != 2 or column not in crossing
+    ]
+    halls = {((column, row), 0) for column in range(columns - 1) for row in (1, 3)}
+    halls |= {((column, row), 1) for column in crossing for row in (1, 2)}
+    for column, row in nodes:
+        ways = {0: [0], 2: [1, 2], 4: [3]}[row]
+        if row == 2 and rng.random() >= doors:
+            ways = [ways[int(rng.integers(2))]]
+        halls |= {((column, way), 1) for way in ways}
+    halls |= _neighbours(rng, nodes, doors)
+    floor = Floor(tuple((node, node) for node in nodes), frozenset(halls))
+    return build(rng, "hospital", floor, Style(**style))
+
+
+def _neighbours(rng: np.random.Generator, nodes: list[Node], doors: float) -> set[Edge]:
+    """Draw which rooms of a row are joined with the next."""
+    return {
+        (node, 0) for node in nodes if step(node, 0) in nodes and rng.random() < doors
+    }
+
+
+FLOORS = (
     Kind(
         "rooms",
         "rooms joined by halls",
         (
             Option("rooms", 6, 1, 100, "number of rooms"),
             LOOPS,
-            ROOM,
-            HALL,
-            CHANGES,
-            CORNERS,
             DEAD_ENDS,
-            VARIATION,
+            *_style(),
         ),
         _rooms,
     ),
@@ -114,17 +168,45 @@ HALL_WORLDS = (
         "halls",
         "a network of halls with loops, dead ends and a few rooms",
         (
-            Option("columns", 5, 2, 40, "columns of junctions and rooms"),
-            Option("rows", 4, 2, 40, "rows of junctions and rooms"),
+            Option("columns", 5, 2, 30, "columns of junctions and rooms"),
+            Option("rows", 4, 2, 30, "rows of junctions and rooms"),
             Option("rooms", 2, 1, 4, "number of rooms"),
             LOOPS,
-            ROOM,
-            HALL,
-            CHANGES,
-            CORNERS,
             DEAD_ENDS,
-            VARIATION,
+            *_style(),
         ),
         _halls,
+    ),
+    Kind(
+        "maze",
+        "a maze of halls, with one room to start in",
+        (
+            Option("columns", 6, 2, 30, "columns of junctions"),
+            Option("rows", 5, 2, 30, "rows of junctions"),
+            Option("loops", 4, 0, 1000, "halls beyond those of a tree, at most"),
+            *_style(room=2.0, islands=0.0, pillars=0.0),
+        ),
+        _maze,
+    ),
+    Kind(
+        "office",
+        "rooms on both sides of a hall; all equal when variation is 0",
+        (
+            Option("rooms", 8, 1, 100, "number of rooms"),
+            DOORS,
+            *_style(hall=0.4, variation=0.25),
+        ),
+        _office,
+    ),
+    Kind(
+        "hospital",
+        "two parallel halls with cross halls, rooms on both sides",
+        (
+            Option("columns", 6, 2, 40, "rooms in a row"),
+            Option("crossings", 3, 2, 40, "halls that join the two"),
+            DOORS,
+            *_style(hall=0.4, variation=0.25),
+        ),
+        _hospital,
     ),
 )

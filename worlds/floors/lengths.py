@@ -24,8 +24,8 @@ MARGIN = 236
 """From an opening to the next corner or opening of the room: 40 cm."""
 HALL = 295
 """Least length of a hall between two places: 50 cm."""
-PIECE = 265
-"""Least length of a hall of one width, where it changes: 45 cm."""
+PIECE = 383
+"""Least length of a hall of one width, where it changes: 65 cm."""
 CHANGE = 15
 """Least change of half a hall's width: 2.5 cm."""
 WALL = 89
@@ -34,6 +34,8 @@ LEAST = 420
 """Least way from a room's lattice line to its wall: 71 cm."""
 APART = 441
 """Least way between things in open space: 75 cm."""
+LEAST_SOLID = 295
+"""Least side of what stands in a room: 50 cm."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +52,12 @@ class Style:
     """Which part of the halls changes width."""
     corners: float
     """Which part of the openings lies at a corner of the room, where it can."""
+    cuts: float
+    """Which part of the rooms lacks a corner, where it can."""
+    islands: float
+    """Which part of the rooms has an island by a wall, where it can."""
+    pillars: float
+    """Which part of the rooms has an island in open space, where it can."""
 
 
 def ticks(length: float) -> int:
