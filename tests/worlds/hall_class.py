@@ -16,35 +16,68 @@ R0, R_W = 0.3, 0.2
 
 @dataclass
 class Piece:
-    """A hall, junction or room: a set of cells."""
+    """A junction or a room: a set of cells."""
 
     cells: np.ndarray
     low: np.ndarray
     high: np.ndarray
 
 
-def census(world):
-    """Return the pieces of a world, and the ends of each hall.
+@dataclass
+class End:
+    """What is at the end of a hall: "junction", "room" or None."""
 
-    Raises AssertionError where the world is none of halls and rooms.
+    kind: str | None
+    piece: int | None
+    corners: list[tuple[float, float]]
+    """Inner corners of the room that it is at."""
+    axis: int
+    side: int
+    middle: float
+
+
+@dataclass
+class Hall:
+    axis: int
+    widths: list[float]
+    ends: list[End]
+
+
+@dataclass
+class Census:
+    rooms: list[Piece]
+    junctions: list[Piece]
+    halls: list[Hall]
+
+
+def census(world):
+    """Return the rooms, junctions and halls of a world.
+
+    Raises AssertionError where the world is not made of such.
     """
     xs, ys, free = _cells(world)
     ways = np.stack([_ways(free, xs), _ways(free.T, ys).T])
     narrow = free & (ways <= 2 * R0)
     assert not narrow.all(axis=0).any(), "a place no longer than wide"
-    halls = [p for axis in (0, 1) for p in _pieces(narrow[1 - axis], xs, ys)]
-    axes = [axis for axis in (0, 1) for _ in _pieces(narrow[1 - axis], xs, ys)]
     others = _pieces(free & ~narrow.any(axis=0), xs, ys)
     junctions = [p for p in others if (p.high - p.low <= 2 * R0).all()]
     rooms = [p for p in others if (p.high - p.low > 2 * R0).any()]
-    ends = [
-        _check_hall(p, axis, xs, ys, junctions, rooms, world)
-        for p, axis in zip(halls, axes, strict=True)
-    ]
-    _check_junctions(halls, axes, ends, len(junctions))
-    corners = [at for pair in ends for end in pair for at in end[2]]
+    found = Census(rooms, junctions, [])
+    for axis in (0, 1):
+        for piece in _pieces(narrow[1 - axis], xs, ys):
+            along, across = (xs, ys)[:: 1 - 2 * axis]
+            found.halls.append(
+                _hall(axis, _turned(piece.cells, axis), along, across, found, world)
+            )
+    _check_junctions(found)
+    corners = [at for hall in found.halls for end in hall.ends for at in end.corners]
     assert len(set(corners)) == len(corners), "two halls at one corner"
-    return rooms, junctions, halls, axes, ends
+    return found
+
+
+def _turned(cells, axis):
+    """Return cells with the columns along an axis."""
+    return cells if axis == 0 else cells.T
 
 
 def check_space(world):
@@ -101,10 +134,8 @@ def _pieces(cells, xs, ys):
     return pieces
 
 
-def _check_hall(piece, axis, xs, ys, junctions, rooms, world):
-    """Check a hall, and return what is at its ends."""
-    along, across = (xs, ys) if axis == 0 else (ys, xs)
-    cells = piece.cells if axis == 0 else piece.cells.T
+def _hall(axis, cells, along, across, found, world):
+    """Check one hall and return it."""
     columns = np.flatnonzero(cells.any(axis=1))
     spans = []
     for k in columns:
@@ -121,42 +152,29 @@ def _check_hall(piece, axis, xs, ys, junctions, rooms, world):
     if changes:
         assert np.diff(lines).min() >= 0.4, "a hall that changes too soon"
     ends = [
-        _end(
-            axis, 0, lines[0], spans[0], cells, columns[0] - 1, junctions, rooms, world
-        ),
-        _end(
-            axis,
-            1,
-            lines[-1],
-            spans[-1],
-            cells,
-            columns[-1] + 1,
-            junctions,
-            rooms,
-            world,
-        ),
+        _end(axis, side, lines[-side], spans[-side], cells[at], at + step, found, world)
+        for side, at, step in ((0, columns[0], -1), (1, columns[-1], 1))
     ]
-    kinds = {kind for kind, *_ in ends}
+    kinds = {end.kind for end in ends}
+    assert kinds != {None}, "a hall without a way out"
     least = 0.5 if None in kinds else 0.3
     assert lines[-1] - lines[0] >= least, "a hall too short"
-    assert kinds != {None}, "a hall without a way out"
-    return ends
+    widths = [widths[k] for k in [0, *changes]]
+    return Hall(axis, np.round(widths, 6).tolist(), ends)
 
 
-def _end(axis, side, line, span, cells, beside, junctions, rooms, world):
-    """Return what is beside a hall's end, which one, and the corners it is at."""
-    at = cells[beside + (1 if side == 0 else -1)]
+def _end(axis, side, line, span, at, beside, found, world):
+    """Return what is beside the last column, `at`, of a hall's cells."""
     middle = round(sum(span) / 2, 6)
-    for kind, pieces in (("junction", junctions), ("room", rooms)):
+    for kind, pieces in (("junction", found.junctions), ("room", found.rooms)):
         for k, piece in enumerate(pieces):
-            there = piece.cells if axis == 0 else piece.cells.T
+            there = _turned(piece.cells, axis)
             if 0 <= beside < len(there) and there[beside][at].any():
                 assert there[beside][at].all(), "a skew end"
-                corners = []
-                if kind == "room":
-                    corners = _check_mouth(axis, line, span, world)
-                return kind, k, corners, side, middle
-    return None, None, [], side, middle
+                is_room = kind == "room"
+                corners = _check_mouth(axis, line, span, world) if is_room else []
+                return End(kind, k, corners, axis, side, middle)
+    return End(None, None, [], axis, side, middle)
 
 
 def _check_mouth(axis, line, span, world):
@@ -176,16 +194,15 @@ def _check_mouth(axis, line, span, world):
     return flush
 
 
-def _check_junctions(halls, axes, ends, count):
-    leaving = [{} for _ in range(count)]
-    for axis, pair in zip(axes, ends, strict=True):
-        for kind, k, _, side, middle in pair:
-            if kind == "junction":
-                assert (axis, side) not in leaving[k], "two halls at one side"
-                leaving[k][axis, side] = middle
+def _check_junctions(found):
+    leaving = [{} for _ in found.junctions]
+    for end in (end for hall in found.halls for end in hall.ends):
+        if end.kind == "junction":
+            sides = leaving[end.piece]
+            assert (end.axis, end.side) not in sides, "two halls at one side"
+            sides[end.axis, end.side] = end.middle
     for sides in leaving:
-        used = {axis for axis, _ in sides}
-        assert used == {0, 1}, "a junction of halls in line"
         for axis in (0, 1):
-            middles = {sides[axis, side] for side in (0, 1) if (axis, side) in sides}
-            assert len(middles) == 1, "halls not in line"
+            middles = {sides[key] for key in sides if key[0] == axis}
+            assert middles, "a junction of halls in line"
+            assert len(middles) == 1, "opposite halls not in line"

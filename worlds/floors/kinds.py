@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from worlds.floors.build import build
@@ -99,13 +100,19 @@ def _maze(
 
 
 def _office(
-    rng: np.random.Generator, rooms: int, doors: float, **style: float
+    rng: np.random.Generator, rooms: int, equal: int, doors: float, **style: float
 ) -> World:
     """Set rooms above and below the middle one of three rows, a hall."""
-    nodes = [(k // 2, 2 * (k % 2)) for k in range(rooms)]
-    last = (rooms - 1) // 2
-    halls = {((column, 1), 0) for column in range(last)}
-    halls |= {((column, row // 2), 1) for column, row in nodes}
+    if equal:
+        kept = {"room", "hall"}
+        style = {name: style[name] if name in kept else 0.0 for name in style}
+    column, nodes = 0, [(0, 0)]
+    for k in range(1, rooms):
+        # Equal rooms face each other, others only some.
+        column += k % 2 == 0 or (not equal and rng.random() < 0.5)
+        nodes.append((column, 2 * (k % 2)))
+    halls = {((left, 1), 0) for left in range(column)}
+    halls |= {((at, row // 2), 1) for at, row in nodes}
     halls |= _neighbours(rng, nodes, doors)
     if rooms == 1:
         halls = set()
@@ -147,9 +154,12 @@ def _hospital(
 
 def _neighbours(rng: np.random.Generator, nodes: list[Node], doors: float) -> set[Edge]:
     """Draw which rooms of a row are joined with the next."""
-    return {
-        (node, 0) for node in nodes if step(node, 0) in nodes and rng.random() < doors
-    }
+    halls: set[Edge] = set()
+    rooms = sorted(nodes, key=lambda node: (node[1], node[0]))
+    for (left, row), (right, other) in pairwise(rooms):
+        if row == other and rng.random() < doors:
+            halls |= {((column, row), 0) for column in range(left, right)}
+    return halls
 
 
 FLOORS = (
@@ -190,11 +200,12 @@ FLOORS = (
     ),
     Kind(
         "office",
-        "rooms on both sides of a hall; all equal when variation is 0",
+        "rooms on both sides of a hall",
         (
             Option("rooms", 8, 1, 100, "number of rooms"),
+            Option("equal", 0, 0, 1, "1 for rooms and halls that are all the same"),
             DOORS,
-            *_style(hall=0.4, variation=0.25),
+            *_style(hall=0.2, variation=0.25),
         ),
         _office,
     ),

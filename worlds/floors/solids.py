@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 __all__ = ["solids"]
 
+TRIES = 12
+"""How often a place is drawn before there is held to be none."""
+
 
 def solids(rng: np.random.Generator, layout: Layout, style: Style) -> list[Box]:
     """Draw what to take out of the rooms of a floor.
@@ -43,10 +46,12 @@ def solids(rng: np.random.Generator, layout: Layout, style: Style) -> list[Box]:
             (style.islands, _by_a_wall),
             (style.pillars, _pillar),
         ):
-            if rng.random() < share:
+            tries = TRIES if rng.random() < share else 0
+            for _ in range(tries):
                 box = draw(rng, room, openings)
                 if box is not None and all(_apart(box, other) for other in here):
                     here.append(box)
+                    break
         found += here
     return found
 
