@@ -30,7 +30,7 @@ class End:
     kind: str | None
     piece: int | None
     corners: list[tuple[float, float]]
-    """Inner corners of the room that it is at."""
+    """Where the wall goes on straight: an inner corner of the room, or an island's wall."""
     axis: int
     side: int
     middle: float
@@ -152,7 +152,17 @@ def _hall(axis, cells, along, across, found, world):
     if changes:
         assert np.diff(lines).min() >= 0.4, "a hall that changes too soon"
     ends = [
-        _end(axis, side, lines[-side], spans[-side], cells[at], at + step, found, world)
+        _end(
+            axis,
+            side,
+            lines[-side],
+            spans[-side],
+            cells[at],
+            at + step,
+            across,
+            found,
+            world,
+        )
         for side, at, step in ((0, columns[0], -1), (1, columns[-1], 1))
     ]
     kinds = {end.kind for end in ends}
@@ -163,7 +173,7 @@ def _hall(axis, cells, along, across, found, world):
     return Hall(axis, np.round(widths, 6).tolist(), ends)
 
 
-def _end(axis, side, line, span, at, beside, found, world):
+def _end(axis, side, line, span, at, beside, across, found, world):
     """Return what is beside the last column, `at`, of a hall's cells."""
     middle = round(sum(span) / 2, 6)
     for kind, pieces in (("junction", found.junctions), ("room", found.rooms)):
@@ -171,16 +181,22 @@ def _end(axis, side, line, span, at, beside, found, world):
             there = _turned(piece.cells, axis)
             if 0 <= beside < len(there) and there[beside][at].any():
                 assert there[beside][at].all(), "a skew end"
-                is_room = kind == "room"
-                corners = _check_mouth(axis, line, span, world) if is_room else []
+                corners = []
+                if kind == "room":
+                    wall = across, there[beside]
+                    corners = _check_mouth(axis, line, span, wall, world)
                 return End(kind, k, corners, axis, side, middle)
     return End(None, None, [], axis, side, middle)
 
 
-def _check_mouth(axis, line, span, world):
-    """Check how far the room's wall goes on beside a mouth; return where it does not."""
+def _check_mouth(axis, line, span, wall, world):
+    """Check how far the room's wall goes on beside a mouth; return where it does not.
+
+    `wall` has the lines along it, and which cells between them are the room's.
+    """
     flush = []
-    for at in span:
+    across, is_room = wall
+    for at, step in zip(span, (-1, 0), strict=True):
         point = (line, at) if axis == 0 else (at, line)
         ring = next((r for r in world.rings if point in r), None)
         if ring is None:
@@ -188,8 +204,9 @@ def _check_mouth(axis, line, span, world):
             continue
         k = ring.index(point)
         sides = ring[k - 1], ring[(k + 1) % len(ring)]
-        (wall,) = [q for q in sides if q[axis] == line]
-        assert abs(wall[1 - axis] - at) >= R0 + 0.05, "a mouth near a corner"
+        (end,) = [q for q in sides if q[axis] == line]
+        assert abs(end[1 - axis] - at) >= R0 + 0.05, "a mouth near a corner"
+        assert is_room[np.searchsorted(across, at) + step], "a mouth beside a hall"
     assert len(flush) < 2, "a mouth without a wall"
     return flush
 

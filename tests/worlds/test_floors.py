@@ -93,20 +93,20 @@ def test_halls_begin_at_corners_as_often_as_asked(seed):
     ends = [
         [
             end
-            for hall in census(made("office", seed, corners=share)).halls
+            for hall in census(made("office", seed, corners=share, **PLAIN)).halls
             for end in hall.ends
         ]
         for share in (0, 1)
     ]
     at_corners = [sum(len(end.corners) for end in some) for some in ends]
     assert at_corners[0] == 0
-    assert at_corners[1] >= 8
+    assert at_corners[1] > 0
 
 
 @given(seeds)
 @settings(max_examples=10, deadline=None)
 def test_an_island_by_a_wall_leaves_a_hall_that_joins_the_room_with_itself(seed):
-    room = {"rooms": 1, "loops": 0, "room": 4.0, "variation": 0.2}
+    room = {"rooms": 1, "dead_ends": 0, "loops": 0, "room": 4.0, "variation": 0.2}
     world = made("rooms", seed, **room, islands=1, cuts=0, pillars=0)
     floor = census(world)
     assert len(world.islands) == len(floor.halls) == len(floor.rooms) == 1
@@ -190,12 +190,13 @@ ROOM = (0, 0, 3, 3)
     [
         (space(ROOM, (3, 1, 5, 1.42)), "too narrow"),
         (space(ROOM, (3, 1, 5, 1.58)), "too wide"),
-        (space(ROOM, (3, 1, 3.4, 1.5)), "no longer than wide"),
+        (space(ROOM, (3, 1, 3.4, 1.5)), "too short"),
         (space(ROOM, (3, 1, 5, 1.5), (4, 1.1, 5, 1.55)), "leaves its middle"),
-        (space(ROOM, (3, 1, 5, 1.5), (3.7, 0.98, 4, 1.52)), "changes too soon"),
+        (space(ROOM, (3, 1, 5, 1.5), (3.7, 0.98, 4, 1.52)), "no longer than wide"),
+        (space(ROOM, (3, 1, 5, 1.5), (3, 0.98, 3.35, 1.52)), "changes too soon"),
         (space(ROOM, (3, 0.3, 5, 0.8)), "near a corner"),
-        (space(ROOM, (3, 0, 5, 0.5), (2.5, -2, 3, 0)), "two halls at one corner"),
-        (space(ROOM, (3, 1, 5, 1.5), (4.2, 1.5, 4.7, 1.7)), "no longer than wide"),
+        (space(ROOM, (3, 0, 5, 0.5), (2.5, -2, 3, 0)), "mouth beside a hall"),
+        (space(ROOM, (3, 1, 5, 1.5), (4.2, 1.5, 4.7, 1.7)), "too short"),
         (space(ROOM, (3, 1, 5, 1.5), (4, -1, 4.5, 1), (4.05, 1.5, 4.5, 3)), "in line"),
         (space(ROOM, (3, 1, 5, 1.5), (5, 1.0005, 6, 1.4995)), "nearly in line"),
     ],
