@@ -6,6 +6,8 @@ table C.10 of [K]_:
 | in | when | go to |
 |---|---|---|
 | T | done | AF |
+| T | at a wall | AL |
+| AL | done | AF |
 | AF | narrowed | CN |
 | CN | done | RET |
 

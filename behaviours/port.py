@@ -185,13 +185,15 @@ class Turn:
 
 @dataclass(frozen=True, slots=True)
 class Align:
-    """Stand parallel to the wall on one side, r0 from it: AL.
+    """Stand parallel to the wall on one side, r0 or `offset` from it: AL.
 
     Ends DONE, or RECEDED when that side sees no wall up to r_max. The
     sideways way is `Outcome.shift`; the distance along the heading is 0.
     """
 
     side: Side
+    offset: float | None = None
+    """Distance from the wall, in metres; r0 where None."""
 
 
 @dataclass(frozen=True, slots=True)
