@@ -53,7 +53,9 @@ def travel(
     """
     way = ways[quarters % 4]
     if way is None:
-        raise ValueError(f"{place.name} has no way {quarters} quarter turns to the left")
+        raise ValueError(
+            f"{place.name} has no way {quarters} quarter turns to the left"
+        )
     if way is Way.HALL and place is VertexType.SPLIT:
         return (yield from _into_hall(parameters, ways, quarters % 4))
     for side in TURNS[quarters % 4]:
@@ -65,9 +67,7 @@ def travel(
     return (yield from follow_hall(parameters))
 
 
-def _into_hall(
-    parameters: Parameters, ways: Ways, quarters: int
-) -> Behaviour[Arrival]:
+def _into_hall(parameters: Parameters, ways: Ways, quarters: int) -> Behaviour[Arrival]:
     """Leave a SPLIT through a hall, to its mouth or to the hall's next vertex."""
     *before, last = TURNS[quarters] or (None,)
     for side in before:

@@ -33,7 +33,8 @@ def recognise(chart, parameters, sigma, source, place, arrival):
     back = (quarters + 2) % 4
     c, s = AHEAD[quarters]
     candidates = [
-        n for n, known in enumerate(chart.places)
+        n
+        for n, known in enumerate(chart.places)
         if known == place and (n, back) not in chart.links
     ]
     if not candidates:
@@ -41,7 +42,9 @@ def recognise(chart, parameters, sigma, source, place, arrival):
     m = chart.as_map(parameters, sigma, first=k)
     pos = embed(m).positions
     index = {v.id: i for i, v in enumerate(m.vertices)}
-    at = pos[index[k]] + np.array([c*arrival.length - s*arrival.shift, s*arrival.length + c*arrival.shift])
+    at = pos[index[k]] + np.array(
+        [c * arrival.length - s * arrival.shift, s * arrival.length + c * arrival.shift]
+    )
     for n in candidates:
         if np.hypot(*(pos[index[n]] - at)) < NEAR:
             return Recognition(n)

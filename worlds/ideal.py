@@ -230,7 +230,9 @@ class IdealBody:
             if approach.until is Until.SEEN:
                 ways.append(look.until_beside(self._u, self._v, side, within, sense))
             else:
-                ways.append(look.until_lost(self._u, self._v, side, within, limit, sense))
+                ways.append(
+                    look.until_lost(self._u, self._v, side, within, limit, sense)
+                )
         return min(ways, default=math.inf)
 
     def _align(self, side: Side) -> Outcome:

@@ -6,6 +6,7 @@ import math
 
 from behaviours.port import Align, Outcome, Reason, Side, Turn
 from worlds.profile import Ranger, looks_along
+from worlds.edges import Glance
 from worlds.robot import Robot
 from worlds.scan import wall_of_scan
 from worlds.straight import SURE, Control, go, settle, stop
@@ -47,10 +48,13 @@ def quarter(robot: Robot, side: Side) -> Control[None]:
     """Turn to the axis on one side of the present one."""
     angle = side.value * math.pi / 2
     yield from stop(robot)
+    ahead = robot.eyes.beam
     yield from spin(robot, angle - robot.lean)
     robot.lean -= angle
     robot.lean_variance += robot.profile.turn_error**2 + 1e-6
     robot.begin_spin()
+    sides = (math.nan, ahead) if side is Side.LEFT else (ahead, math.nan)
+    robot.seed = Glance(robot.odometer, *sides)
 
 
 def align(robot: Robot, primitive: Align) -> Control[Outcome]:
