@@ -7,13 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from topomap.chart import Chart, Place
 from topomap.embedding import embed
 from topomap.headings import AHEAD
 
 if TYPE_CHECKING:
-    from behaviours.parameters import Parameters
-    from behaviours.ways import Arrival
+    pass
 
 __all__ = ["Recognition", "recognise"]
 

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from behaviours.port import Readings, Side
+from behaviours.port import Readings
 from worlds.arena import Arena
 from worlds.edges import Glance
 from worlds.pose import Pose

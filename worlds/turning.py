@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from behaviours.port import Align, Outcome, Reason, Side, Turn
-from worlds.profile import Ranger, looks_along
 from worlds.edges import Glance
+from worlds.profile import Ranger, looks_along
 from worlds.robot import Robot
-from worlds.scan import wall_of_scan
+from worlds.scan import nearest_piece, wall_of_scan
 from worlds.straight import SURE, Control, go, settle, stop
 
 __all__ = ["align", "turn"]
@@ -115,7 +115,8 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
         if robot.is_fresh and (reading := robot.eyes.beam) < farthest:
             scan.append((robot.turned - axis, reading))
     yield from stop(robot)
-    wall = wall_of_scan(scan, _inverse_error(robot), side, 2 * ranger.cone)
+    piece = nearest_piece(scan, robot.parameters.r0 / 3)
+    wall = wall_of_scan(piece, _inverse_error(robot), side, 2 * ranger.cone)
     if wall is None:
         yield from spin(robot, axis - robot.turned)
         return math.inf
