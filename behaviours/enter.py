@@ -84,7 +84,6 @@ def enter(parameters: Parameters, side: Side | None) -> Behaviour[tuple[float, f
         State.AF: Approach(
             (Sensor.LEFT, Sensor.RIGHT),
             within=2 * parameters.r0,
-            keep=parameters.r_min,
             limit=2 * parameters.r0,
             until=Until.HALL,
         ),
