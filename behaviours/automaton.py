@@ -121,7 +121,9 @@ class UnforeseenError(RuntimeError):
             if isinstance(result, Outcome)
             else repr(result)
         )
-        super().__init__(f"{type(state).__name__}.{state.name} has no arrow for {found}")
+        super().__init__(
+            f"{type(state).__name__}.{state.name} has no arrow for {found}"
+        )
         self.state = state
         self.result = result
 

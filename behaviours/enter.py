@@ -6,7 +6,7 @@ table C.10 of [K]_:
 | in | when | go to |
 |---|---|---|
 | T | done | AF |
-| T | at a wall | AL |
+| T_AT_WALL | done | AL |
 | AL | done | AF |
 | AF | narrowed | CN |
 | CN | done | RET |
@@ -15,6 +15,9 @@ Purpose: enter a hall. Preconditions: the robot stands at a SPLIT that has the
 hall on side X. Postcondition: it stands where the hall's two walls have begun,
 in their middle, and looks along them. Arguments: X; none if the hall is ahead.
 Returns the way into the hall, along it and to the left.
+
+Where the hall opens at a corner, r0 from its one wall may be too near to its other:
+the robot first stands r_w from the corner's wall (AL), where every hall is free.
 
 Differs from the source, which returns r_w: the hall's width is in the readings,
 and the way is what the map needs.
@@ -32,7 +35,17 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
 from behaviours.conditions import done, narrowed
-from behaviours.port import Approach, Behaviour, Centre, Sensor, Side, Turn, Until
+from behaviours.port import (
+    Align,
+    Approach,
+    Behaviour,
+    Centre,
+    Primitive,
+    Sensor,
+    Side,
+    Turn,
+    Until,
+)
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
@@ -45,6 +58,9 @@ class State(Enum):
 
     T = auto()
     """Towards the hall."""
+    T_AT_WALL = auto()
+    """Towards a hall that begins at a corner."""
+    AL = auto()
     AF = auto()
     """Forward until both of the hall's walls have begun."""
     CN = auto()
@@ -52,16 +68,20 @@ class State(Enum):
 
 
 # fmt: off
-ENTER = Automaton((State.T, State.AF), (
-    #   in        when       go to
-    Row(State.T,  done,      State.AF),
-    Row(State.AF, narrowed,  State.CN),
-    Row(State.CN, done,      State.RET),
+ENTER = Automaton((State.T, State.T_AT_WALL, State.AL, State.AF), (
+    #   in               when      go to
+    Row(State.T,         done,     State.AF),
+    Row(State.T_AT_WALL, done,     State.AL),
+    Row(State.AL,        done,     State.AF),
+    Row(State.AF,        narrowed, State.CN),
+    Row(State.CN,        done,     State.RET),
 ), (State.RET,))
 # fmt: on
 
 
-def enter(parameters: Parameters, side: Side | None) -> Behaviour[tuple[float, float]]:
+def enter(
+    parameters: Parameters, side: Side | None, wall: Side | None = None
+) -> Behaviour[tuple[float, float]]:
     """Drive into a hall.
 
     Parameters
@@ -70,6 +90,8 @@ def enter(parameters: Parameters, side: Side | None) -> Behaviour[tuple[float, f
         The lengths the robot keeps.
     side : Side or None
         X, where the hall is; None for ahead.
+    wall : Side or None
+        Where the corner's wall is, seen with the hall ahead, if it opens at one.
 
     Returns
     -------
@@ -82,17 +104,24 @@ def enter(parameters: Parameters, side: Side | None) -> Behaviour[tuple[float, f
     UnforeseenError
         From the running coroutine, if there is no hall, or the body bumps.
     """
-    actions = {
-        State.AF: Approach(
-            (Sensor.LEFT, Sensor.RIGHT),
-            within=2 * parameters.r0,
-            keep=parameters.r_min,
-            limit=2 * parameters.r0,
-            until=Until.HALL,
-        ),
-        State.CN: Centre(),
-        **({State.T: Turn(side)} if side else {}),
-    }
-    path = yield from perform(ENTER, actions, State.T if side else State.AF)
-    *_, (_, ahead), (_, centred), _ = path
-    return ahead.distance, centred.shift
+    ahead = Approach(
+        (Sensor.LEFT, Sensor.RIGHT),
+        within=2 * parameters.r0,
+        keep=parameters.r_min,
+        limit=2 * parameters.r0,
+        until=Until.HALL,
+    )
+    actions: dict[State, Primitive] = {State.AF: ahead, State.CN: Centre()}
+    if side is not None:
+        actions[State.T] = actions[State.T_AT_WALL] = Turn(side)
+    if wall is not None:
+        actions[State.AL] = Align(wall, parameters.r_w)
+    start = {
+        (False, False): State.AF,
+        (False, True): State.AL,
+        (True, False): State.T,
+        (True, True): State.T_AT_WALL,
+    }[side is not None, wall is not None]
+    path = yield from perform(ENTER, actions, start)
+    outcomes = [outcome for _, outcome in path[:-1]]
+    return sum(o.distance for o in outcomes), sum(o.shift for o in outcomes)

@@ -11,7 +11,7 @@ from behaviours.follow_hall import follow_hall
 from behaviours.leave_hall import leave_hall
 from behaviours.port import Behaviour, Side, Turn
 from behaviours.vertices import VertexType
-from behaviours.ways import Arrival, Way, Ways
+from behaviours.ways import Arrival, Way, Ways, turned
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
@@ -53,7 +53,9 @@ def travel(
     """
     way = ways[quarters % 4]
     if way is None:
-        raise ValueError(f"{place.name} has no way {quarters} quarter turns to the left")
+        raise ValueError(
+            f"{place.name} has no way {quarters} quarter turns to the left"
+        )
     if way is Way.HALL and place is VertexType.SPLIT:
         return (yield from _into_hall(parameters, ways, quarters % 4))
     for side in TURNS[quarters % 4]:
@@ -65,17 +67,20 @@ def travel(
     return (yield from follow_hall(parameters))
 
 
-def _into_hall(
-    parameters: Parameters, ways: Ways, quarters: int
-) -> Behaviour[Arrival]:
+def _into_hall(parameters: Parameters, ways: Ways, quarters: int) -> Behaviour[Arrival]:
     """Leave a SPLIT through a hall, to its mouth or to the hall's next vertex."""
     *before, last = TURNS[quarters] or (None,)
     for side in before:
         yield Turn(side)
-    ahead, left = yield from enter(parameters, last)
-    if not set(ways) <= {None, Way.HALL}:
-        # A SPLIT of open space: the hall's mouth is a vertex of its own.
+    in_open_space = not set(ways) <= {None, Way.HALL}
+    _, left, _, right = turned(ways, quarters)
+    wall = None
+    if in_open_space and None in (left, right):
+        wall = Side.LEFT if left is None else Side.RIGHT
+    ahead, aside = yield from enter(parameters, last, wall)
+    if in_open_space:
+        # The hall's mouth is a vertex of its own.
         inside = (Way.HALL, None, Way.OUT, None)
-        return Arrival(VertexType.PORTAL, inside, ahead, left)
+        return Arrival(VertexType.PORTAL, inside, ahead, aside)
     arrival = yield from follow_hall(parameters)
-    return replace(arrival, length=ahead + arrival.length, shift=left + arrival.shift)
+    return replace(arrival, length=ahead + arrival.length, shift=aside + arrival.shift)

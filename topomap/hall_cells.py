@@ -63,7 +63,7 @@ class HallParts:
 
 
 def hall_parts(
-    free: shapely.Geometry, swept: shapely.Geometry, width: float
+    free: shapely.Geometry, swept: shapely.Geometry, width: float, slack: float = 0.0
 ) -> HallParts:
     """Take the narrow part of free space to pieces.
 
@@ -75,6 +75,9 @@ def hall_parts(
         Its open part: halls are what is left of `free`.
     width : float
         The greatest width of a hall, in metres.
+    slack : float
+        How far, in metres, the rim of a junction may be from its box: halls on
+        opposite sides of it may be of different width.
 
     Returns
     -------
@@ -118,8 +121,8 @@ def hall_parts(
     along_y = is_narrow & (across_y <= width + ROUNDING)
     if (both := along_x & along_y).any():
         raise _intricate(xs, ys, both, "a place closed in from all sides")
-    numbers, many = ndimage.label(is_narrow & ~along_x & ~along_y)
-    junctions = tuple(_rectangles(numbers, many, xs, ys))
+    numbers, _ = ndimage.label(is_narrow & ~along_x & ~along_y)
+    junctions = tuple(_rectangles(numbers, xs, ys, slack))
     # What lies at a cell: -2 a wall, -1 open space, k >= 0 junction k; -3 a hall.
     kinds = np.where(is_free, np.where(is_open, -1, numbers - 1), -2)
     kinds[along_x | along_y] = -3
@@ -165,13 +168,16 @@ def _run_lengths(
 
 def _rectangles(
     numbers: NDArray[np.int64],
-    many: int,
     xs: NDArray[np.float64],
     ys: NDArray[np.float64],
+    slack: float,
 ) -> Iterator[tuple[float, float, float, float]]:
+    """Yield the box of each junction; halls of unequal width may ruffle its rim."""
     for number, (rows, columns) in enumerate(ndimage.find_objects(numbers), start=1):
-        part = numbers[rows, columns] == number
-        if not part.all():
+        inner = np.ix_(
+            _well_inside(xs, rows, slack), _well_inside(ys, columns, slack)
+        )
+        if not (numbers[rows, columns] == number)[inner].all():
             raise _intricate(xs, ys, numbers == number, "a junction that is no rectangle")
         yield (
             float(xs[rows.start]),
@@ -179,6 +185,14 @@ def _rectangles(
             float(xs[rows.stop]),
             float(ys[columns.stop]),
         )
+
+
+def _well_inside(
+    lines: NDArray[np.float64], part: slice, slack: float
+) -> NDArray[np.bool_]:
+    """Return which cells of a part are farther than `slack` from both of its ends."""
+    low, high = lines[part], lines[part.start + 1 : part.stop + 1]
+    return (low >= low[0] + slack) & (high <= high[-1] - slack)
 
 
 def _stretches(

@@ -120,7 +120,7 @@ def true_hall_maps(
     r0 = parameters.r0
     free = _moved(_moved(world.free_space, -parameters.r_w), parameters.r_w)
     eroded = _moved(world.free_space, -r0 - STRICTLY)
-    parts = hall_parts(free, _moved(eroded, r0 + STRICTLY), 2 * r0)
+    parts = hall_parts(free, _moved(eroded, r0 + STRICTLY), 2 * r0, r0 - parameters.r_w)
     drawing = Drawing(parameters)
     mouths = draw_halls(drawing, parts, free)
     loops = [_loop(ring, parameters) for ring in _rings(eroded)]

@@ -143,8 +143,8 @@ class IdealBody:
                 return self._approach(primitive)
             case Turn(side):
                 return self._turn(side)
-            case Align(side):
-                return self._align(side)
+            case Align():
+                return self._align(primitive)
             case Centre():
                 return self._centre()
 
@@ -238,11 +238,13 @@ class IdealBody:
                 )
         return min(ways, default=math.inf)
 
-    def _align(self, side: Side) -> Outcome:
+    def _align(self, align: Align) -> Outcome:
+        side = align.side
+        offset = self.parameters.r0 if align.offset is None else align.offset
         reach = self._sight.looking[self._quarters].beside(self._u, self._v, side)
         if reach > self.parameters.r_max + EPS:
             return self._sidle(0.0, Reason.RECEDED)
-        return self._sidle(side.value * (reach - self.parameters.r0), Reason.DONE)
+        return self._sidle(side.value * (reach - offset), Reason.DONE)
 
     def _follow_wall(self, side: Side) -> Outcome:
         r0, r_max = self.parameters.r0, self.parameters.r_max
