@@ -98,13 +98,28 @@ def truth(world: World) -> Figure:
 def kinds() -> Figure:
     """Draw one world of each kind."""
     names = list(worlds.kinds())
-    figure = Figure(figsize=(8, 6), layout="constrained")
-    grid = figure.subplots(3, math.ceil(len(names) / 3))
+    figure = Figure(figsize=(8, 8), layout="constrained")
+    grid = figure.subplots(4, math.ceil(len(names) / 4))
     for ax, name in zip_longest(grid.flat, names):
         ax.set_axis_off()
         if name is not None:
             world = worlds.make(name, np.random.default_rng(4))
             _draw_walls(world, ax)
+            ax.set_title(name, fontsize=9)
+            ax.set_aspect("equal")
+            ax.autoscale_view()
+    return figure
+
+
+def floors() -> Figure:
+    """Draw worlds with halls."""
+    shown = ("office", "hospital", "rooms", "halls", "maze")
+    figure = Figure(figsize=(8, 10), layout="constrained")
+    grid = figure.subplots(3, 2)
+    for ax, name in zip_longest(grid.flat, shown):
+        ax.set_axis_off()
+        if name is not None:
+            _draw_walls(worlds.make(name, np.random.default_rng(3)), ax)
             ax.set_title(name, fontsize=9)
             ax.set_aspect("equal")
             ax.autoscale_view()
@@ -135,6 +150,11 @@ FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
     "truth": (
         "What every map is held to: the true map of each ring, from geometry alone.",
         lambda: truth(PILLARS),
+    ),
+    "floors": (
+        "Worlds with halls, 43 to 57 cm wide: a robot that sees no farther than half "
+        "a metre finds them by their openings.",
+        floors,
     ),
     "kinds": ("One world of each kind, as `world make` draws them.", kinds),
 }

@@ -32,6 +32,11 @@ WALL = 89
 """Least thickness of what is solid: 15 cm."""
 LEAST = 420
 """Least way from a room's lattice line to its wall: 71 cm."""
+STRIDE = MARGIN + WIDE
+"""Least way between two columns, or between two rows of one room.
+
+A hall on the room's second line, off it by at most LEAST, keeps MARGIN to the corner.
+"""
 APART = 441
 """Least way between things in open space: 75 cm."""
 LEAST_SOLID = 295

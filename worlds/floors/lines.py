@@ -7,7 +7,16 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from worlds.floors.floor import Edge, Floor, step
-from worlds.floors.lengths import HALL, MARGIN, PIECE, WALL, Style, ticks, varied
+from worlds.floors.lengths import (
+    HALL,
+    MARGIN,
+    PIECE,
+    STRIDE,
+    WALL,
+    Style,
+    ticks,
+    varied,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -33,7 +42,7 @@ def rows(
         below[low[1]] = max(below[low[1]], down)
         above[high[1]] = max(above[high[1]], up)
         for row in range(low[1] + 1, high[1] + 1):
-            gap[row] = max(gap[row], MARGIN)
+            gap[row] = max(gap[row], STRIDE)
     for track in tracks:
         run = track.run
         if run.axis == 0:
@@ -63,7 +72,7 @@ def columns(
     bands = _bands(floor, at, reach)
     xs: list[int] = []
     for column in range(floor.size[0]):
-        x = xs[-1] + 1 if xs else 0
+        x = xs[-1] + STRIDE if xs else 0
         for band in bands:
             for before, item in pairwise(band):
                 if item.first == column:

@@ -167,8 +167,8 @@ def _end(
         return (room, side, end) if run.axis == 0 else (room, end, side)
 
     return _End(
-        least + MARGIN if is_first else -FAR,
-        most - MARGIN if is_last else FAR,
+        least + MARGIN if is_first else -LEAST,
+        most - MARGIN if is_last else LEAST,
         ((corner(0), least),) * is_first + ((corner(1), most),) * is_last,
     )
 
