@@ -212,7 +212,8 @@ def _is_open_loop(chart: Chart, vertex: int) -> bool:
     """Return whether a vertex is on a base loop that has not been walked."""
     ways = chart.places[vertex].ways
     return (
-        Way.WALL_RIGHT in ways and (vertex, ways.index(Way.WALL_RIGHT)) not in chart.links
+        Way.WALL_RIGHT in ways
+        and (vertex, ways.index(Way.WALL_RIGHT)) not in chart.links
     )
 
 

@@ -92,8 +92,12 @@ def recognise(
     lengths = np.array([link.length for link in chart.each_link()])
     weights = {}
     for x, pairs in found.items():
-        position = _log_position(at[x], spread[x], density, _apart(parameters, at, pairs))
-        shape = sum(_log_shape(*links, sigma, lengths) for links in _common(chart, pairs))
+        position = _log_position(
+            at[x], spread[x], density, _apart(parameters, at, pairs)
+        )
+        shape = sum(
+            _log_shape(*links, sigma, lengths) for links in _common(chart, pairs)
+        )
         weights[x] = position - np.logaddexp(
             math.log(COPIES), math.log1p(-COPIES) - shape
         )
@@ -156,13 +160,19 @@ def _common(chart: Chart, pairs: dict[int, int]) -> Iterator[tuple[Link, Link]]:
     """Yield the two links of each edge that has been walked from both places."""
     for a, b in pairs.items():
         for quarters in range(4):
-            first, second = chart.links.get((a, quarters)), chart.links.get((b, quarters))
+            first, second = (
+                chart.links.get((a, quarters)),
+                chart.links.get((b, quarters)),
+            )
             if (
                 first is not None
                 and second is not None
                 and first is not second
                 and first.behaviour != "ENTER"
-                and (first.ends[0] == (a, quarters) or first.beyond((a, quarters))[0] not in pairs)
+                and (
+                    first.ends[0] == (a, quarters)
+                    or first.beyond((a, quarters))[0] not in pairs
+                )
             ):
                 yield first, second
 
