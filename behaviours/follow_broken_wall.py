@@ -52,7 +52,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, Any
 
 from behaviours import examine_corner as corner
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import (
     blocked,
     bumped,
@@ -234,7 +234,7 @@ def follow_broken_wall(
     def examine(_: Path[State]) -> Behaviour[corner.State]:
         return corner.examine_corner(parameters, side)
 
-    actions = {
+    actions: Actions[State] = {
         State.MF_BESIDE: Move(r0, keep=r0),
         State.AF_BESIDE: Approach(
             (Sensor.of_side(side),), parameters.r_max, keep=r0, limit=2 * r0

@@ -12,7 +12,7 @@ from scipy import ndimage
 from worlds.errors import WorldError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -147,7 +147,7 @@ def _lines(
 
 
 def _inside(
-    area: shapely.Geometry, middles: list[NDArray[np.float64]]
+    area: shapely.Geometry, middles: Sequence[NDArray[np.float64]]
 ) -> NDArray[np.bool_]:
     shapely.prepare(area)
     return np.asarray(shapely.contains_xy(area, *middles))
@@ -192,7 +192,7 @@ def _well_inside(
 ) -> NDArray[np.bool_]:
     """Return which cells of a part are farther than `slack` from both of its ends."""
     low, high = lines[part], lines[part.start + 1 : part.stop + 1]
-    return (low >= low[0] + slack) & (high <= high[-1] - slack)
+    return np.asarray((low >= low[0] + slack) & (high <= high[-1] - slack))
 
 
 def _stretches(

@@ -246,7 +246,7 @@ def _follow(
     """Go along a hall from one end of it to the other; return that stretch and end."""
     while True:
         far = parts.stretches[stretch].ends[1 - end]
-        if not _passes(far, numbers):
+        if not isinstance(far, hall_cells.Junction) or not _passes(far, numbers):
             return stretch, 1 - end
         onward = _Terminal(parts.stretches[stretch], 1 - end).outward
         stretch, end = sides[far.number][onward]
@@ -261,8 +261,11 @@ def _draw_end(
     """Return the vertex at the end of a hall, added if it is new."""
     end = terminal.stretch.ends[terminal.end]
     inward = (terminal.outward + 2) % 4
-    if isinstance(end, hall_cells.Junction):
-        return numbers[end.number]
+    if (
+        isinstance(end, hall_cells.Junction)
+        and (number := numbers[end.number]) is not None
+    ):
+        return number
     if isinstance(end, hall_cells.Wall):
         place = terminal.place(drawing.parameters.r_min)
         return drawing.add(VertexType.TERM, [inward], place)

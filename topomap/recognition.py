@@ -38,6 +38,18 @@ class Recognition:
     """Earlier vertices that it may be, with their probabilities, best first."""
 
     @property
+    def known(self) -> int | None:
+        """The vertex that it most likely is; None for a new one."""
+        if self.candidates and self.candidates[0][1] > self.new:
+            return self.candidates[0][0]
+        return None
+
+    def is_sure(self, error: float) -> bool:
+        """Return whether `known` is wrong with a probability below `error`."""
+        best = self.candidates[0][1] if self.candidates else 0.0
+        return max(best, self.new) >= 1 - error
+
+    @property
     def new(self) -> float:
         """Probability that it is none of them."""
         return max(0.0, 1.0 - sum(p for _, p in self.candidates))

@@ -123,7 +123,7 @@ class Look:
             here = u + sense * way
             reach = sum(self.beside(here, v, side) for side in sides)
             if (reach <= within + EPS) is is_within:
-                return way
+                return float(way)
         return inf
 
     def next_change(
