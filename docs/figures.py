@@ -24,8 +24,10 @@ from behaviours import Parameters, run
 from topomap.boundary import map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
+from topomap.drawing import draw_world
 from topomap.folding import fold
 from topomap.map_drawing import draw_map
+from topomap.mapping import build_map
 from topomap.truth import true_map, true_maps
 from worlds.ideal import IdealBody
 from worlds.pose import Pose
@@ -111,6 +113,23 @@ def kinds() -> Figure:
     return figure
 
 
+def office() -> Figure:
+    """Draw the map of an office of rooms and halls over its walls."""
+    world = worlds.make("office", np.random.default_rng(3))
+    built = build_map(world, np.random.default_rng(1))
+    found = built.comparison
+    figure = Figure(figsize=(9, 6), layout="constrained")
+    ax = figure.add_subplot()
+    draw_world(world, ax)
+    draw_map(
+        built.map,
+        ax,
+        rotation=found.rotation or 0.0,
+        offset=found.offset or (0.0, 0.0),
+    )
+    return figure
+
+
 def floors() -> Figure:
     """Draw worlds with halls."""
     shown = ("office", "hospital", "rooms", "halls", "maze")
@@ -150,6 +169,11 @@ FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
     "truth": (
         "What every map is held to: the true map of each ring, from geometry alone.",
         lambda: truth(PILLARS),
+    ),
+    "office": (
+        "Eight rooms along a hall, mapped by a robot whose lengths are off by 6 %: "
+        "SPLITs where halls begin and meet, PORTALs where they open.",
+        office,
     ),
     "floors": (
         "Worlds with halls, 43 to 57 cm wide: a robot that sees no farther than half "

@@ -88,6 +88,24 @@ class Build:
         return len(closures) + len(recognised)
 
     @property
+    def error_probability(self) -> float:
+        """Probability, by the robot's own account, that the map is wrong somewhere.
+
+        The sum over all loops and over all vertices that may have been earlier ones.
+        """
+        last = {found.vertex: found.doubt for found in self.recognitions}
+        loops = (walk.decisions[-1] for walk in self.loops if walk.decisions)
+        total = sum(last.values()) + sum(loop.error_probability for loop in loops)
+        return min(1.0, total)
+
+    @property
+    def reason(self) -> str:
+        """Why the loop that is least sure was closed, or is open."""
+        decided = [walk.decisions[-1] for walk in self.loops if walk.decisions]
+        worst = max(decided, key=lambda d: (d.period is None, d.error_probability))
+        return worst.reason
+
+    @property
     def walk(self) -> Walk:
         """The base loop that was walked first; an empty one if there is none."""
         return self.loops[0] if self.loops else Walk(VertexType.TERM, (), ())

@@ -46,8 +46,13 @@ class Recognition:
 
     def is_sure(self, error: float) -> bool:
         """Return whether `known` is wrong with a probability below `error`."""
+        return self.doubt < error
+
+    @property
+    def doubt(self) -> float:
+        """Probability that `known` is wrong."""
         best = self.candidates[0][1] if self.candidates else 0.0
-        return max(best, self.new) >= 1 - error
+        return 1.0 - max(best, self.new)
 
     @property
     def new(self) -> float:

@@ -42,7 +42,7 @@ def build(
         bool, typer.Option("--json", help="Print one JSON object and nothing else.")
     ] = False,
 ) -> None:
-    """Let one robot build the map of the boundary it first meets."""
+    """Let one robot build the map of all it can reach along walls and halls."""
     import numpy as np
 
     from topomap.bodies import body_parameters
@@ -81,10 +81,7 @@ def build(
     if as_json:
         show_json(summary(built, elapsed))
     if not built.closed:
-        raise JobError(
-            f"no closure found after {len(built.walk.legs)} walls: "
-            f"{built.walk.decisions[-1].reason}"
-        )
+        raise JobError(f"no closure found after {built.walls} walls: {built.reason}")
     if not as_json:
         say(_sentence(built, output))
 
@@ -105,9 +102,9 @@ def summary(built: Build, elapsed: float) -> dict[str, Any]:
         "position_rmse_m": None if rmse is None else round(rmse, 4),
         "hypotheses": built.hypotheses,
         "collisions": built.collisions,
-        "walls": len(built.walk.legs),
-        "error_probability": built.walk.decisions[-1].error_probability,
-        "reason": built.walk.decisions[-1].reason,
+        "walls": built.walls,
+        "error_probability": built.error_probability,
+        "reason": built.reason,
     }
 
 
@@ -140,6 +137,6 @@ def _sentence(built: Build, output: Path) -> str:
     verdict = "correct" if built.correct else "WRONG"
     return (
         f"{output}: {len(built.map.vertices)} vertices, closed after "
-        f"{len(built.walk.legs)} walls and {built.travelled:.1f} m; {verdict} against "
+        f"{built.walls} walls and {built.travelled:.1f} m; {verdict} against "
         f"the world's truth"
     )

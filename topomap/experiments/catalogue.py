@@ -17,6 +17,7 @@ MODULES = (
     "topomap.experiments.closing",
     "topomap.experiments.exploring",
     "topomap.experiments.floor_plans",
+    "topomap.experiments.halls",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
 )
