@@ -9,6 +9,7 @@ import typer
 from topomap.cli.allocate import allocate
 from topomap.cli.build import build
 from topomap.cli.compare import compare
+from topomap.cli.convert import convert
 from topomap.cli.demo import demo
 from topomap.cli.explore_grid import explore_grid
 from topomap.cli.merge import merge
@@ -30,6 +31,7 @@ app.command()(build)
 app.command()(compare)
 app.command()(merge)
 app.command()(show)
+app.command()(convert)
 app.command()(allocate)
 app.command()(explore_grid)
 app.command()(reproduce)

@@ -230,7 +230,7 @@ BOMB = b"origin:\n- &a [0, 0, 0, 0, 0, 0, 0, 0]\n" + b"".join(
         (b"", r"map.yaml: expected fields such as image"),
         (b" " * 5_000, r"map.yaml: expected at most 4000 bytes"),
         (b"[" * 2_000, r"map.yaml: is no YAML"),
-        (BOMB, r"map.yaml: is no YAML: line 5: more than 200 values"),
+        (BOMB, r"map.yaml: is no YAML: line 4: more than 200 values"),
     ],
 )
 def test_what_is_no_ros_map_is_refused(tmp_path, content, message):
