@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 from dataclasses import dataclass
 from os import PathLike, fspath
 from pathlib import Path
 
+import msgspec
+
 from topomap.embedding import embedded
 from topomap.errors import InputError
 from topomap.files.atomic import check_writable
-from topomap.files.json_files import decode_json
 from topomap.formats.pose_maps import map_of_poses, poses_of
 from topomap.formats.registry import FORMATS, Format, Loaded, Lost, Thing, as_map
 from topomap.formats.text_files import read_text
@@ -119,6 +121,13 @@ def convert(
     return Conversion(reader.name, writer.name, lost + more + left, before, after)
 
 
+class _Head(msgspec.Struct):
+    """What tells JSON files apart; the rest is not looked at."""
+
+    format: str | None = None
+    nodes: msgspec.Raw = msgspec.Raw(b"")
+
+
 def _named(name: str, option: str) -> Format:
     if name not in FORMATS:
         raise InputError("", option, name, f"one of {', '.join(FORMATS)}")
@@ -147,11 +156,12 @@ def _reader(path: Path) -> Format:
     """Return the format of a file, by its suffix and what is in it."""
     found = _by_suffix(path)[0].name
     if found == "map":
-        value = decode_json(fspath(path), read_text(path).encode())
-        if isinstance(value, dict) and value.get("format") == "topomap-world":
-            found = "world"
-        elif isinstance(value, dict) and "format" not in value and "nodes" in value:
-            found = "node-link"
+        with contextlib.suppress(msgspec.MsgspecError, RecursionError):
+            head = msgspec.json.decode(read_text(path).encode(), type=_Head)
+            if head.format == "topomap-world":
+                found = "world"
+            elif head.format is None and head.nodes:
+                found = "node-link"
     elif found == "map-server" and re.search(r"^nodes:", read_text(path), re.MULTILINE):
         found = "tmap2"
     return FORMATS[found]

@@ -80,12 +80,14 @@ def grid_around(corners: NDArray[np.float64], resolution: float, rim: int) -> Gr
     return Grid(rows, columns, resolution, left, bottom)
 
 
-def covered(rings: Sequence[NDArray[np.float64]], grid: Grid) -> NDArray[np.bool_]:
+def covered(
+    rings: Sequence[NDArray[np.float64]] | NDArray[np.float64], grid: Grid
+) -> NDArray[np.bool_]:
     """Tell which pixels have their centre inside polygons.
 
     Parameters
     ----------
-    rings : sequence of ndarray, shape (K, 2)
+    rings : sequence of ndarray, shape (K, 2), or ndarray, shape (N, K, 2)
         Inside is what they run around counter-clockwise more often than
         clockwise: rings may overlap, and holes run clockwise.
     grid : Grid
@@ -108,7 +110,7 @@ def covered(rings: Sequence[NDArray[np.float64]], grid: Grid) -> NDArray[np.bool
     [[0, 0, 0, 0], [0, 1, 1, 0], [0, 0, 0, 0]]
     """
     count = np.zeros((grid.rows, grid.columns + 1), dtype=np.int32)
-    if rings:
+    if len(rings):
         start = np.concatenate(rings)
         end = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
         # In pixels, with the centre of the lower left one at the origin.

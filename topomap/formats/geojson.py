@@ -57,8 +57,9 @@ def save_geojson(
     """
     if not chart.edges:
         raise InputError("", "edges", 0, "a map with at least one edge")
+    keeps = keeps_ids(chart)
     names = {
-        vertex.id: vertex.id if keeps_ids(chart) else row
+        vertex.id: vertex.id if keeps else row
         for row, vertex in enumerate(chart.vertices)
     }
     places = places_of(chart).tolist()

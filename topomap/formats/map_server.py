@@ -85,9 +85,10 @@ def save_map_picture(
     """
     r0 = (chart.parameters or Parameters()).r0
     free, walls = swept_space(chart, r0, resolution)
-    if not free:
+    if not len(free):
         raise InputError("", "edges", 0, "a map with at least one edge")
-    grid = grid_around(np.concatenate([*free, *walls]), resolution, RIM)
+    corners = np.concatenate([free, walls]).reshape(-1, 2)
+    grid = grid_around(corners, resolution, RIM)
     shades = np.full((grid.rows, grid.columns), UNKNOWN, dtype=np.uint8)
     shades[covered(free, grid)] = FREE
     shades[covered(walls, grid)] = OCCUPIED

@@ -23,7 +23,7 @@ next wall is r0 ahead; an outer corner lies r0 past the wall's end."""
 
 def swept_space(
     chart: TopologicalMap, r0: float, thickness: float
-) -> tuple[list[NDArray[np.float64]], list[NDArray[np.float64]]]:
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the rectangles that a map's ways have swept, and those of its walls.
 
     Parameters
@@ -37,7 +37,7 @@ def swept_space(
 
     Returns
     -------
-    free, walls : list of ndarray, shape (4, 2)
+    free, walls : ndarray, shape (N, 4, 2)
         Corners counter-clockwise, in metres. Free space reaches r0 to all sides of
         a way and of its ends: where nothing is narrower than 2 r0, it is free. A
         wall stands on the right of each edge that followed one, source to target;
@@ -55,48 +55,36 @@ def swept_space(
     >>> walls[0].tolist()
     [[0.5, -0.625], [2.5, -0.625], [2.5, -0.5], [0.5, -0.5]]
     """
-    places = dict(
-        zip((vertex.id for vertex in chart.vertices), places_of(chart), strict=True)
-    )
-    types = {vertex.id: vertex.type for vertex in chart.vertices}
-    free, walls = [], []
-    for edge in chart.edges:
-        start, end = places[edge.source], places[edge.target]
-        length = float(np.hypot(*(end - start)))
-        if length == 0:
-            continue
-        ahead = (end - start) / length
-        free.append(_rectangle(start, ahead, -r0, length + r0, -r0, r0))
-        if edge.behaviour == "WF":
-            before = r0 * BEHIND.get(types[edge.source], 0.0)
-            after = r0 * BEHIND.get(types[edge.target], 0.0)
-            if length + before + after > 0:
-                walls.append(
-                    _rectangle(
-                        start, ahead, -before, length + after, -r0 - thickness, -r0
-                    )
-                )
-    return free, walls
+    rows = {vertex.id: row for row, vertex in enumerate(chart.vertices)}
+    ends = np.array([(rows[e.source], rows[e.target]) for e in chart.edges])
+    start, end = places_of(chart)[ends.reshape(-1, 2)].transpose(1, 0, 2)
+    length = np.hypot(*(end - start).T)
+    behind = np.array([r0 * BEHIND.get(v.type, 0.0) for v in chart.vertices])
+    before, after = behind[ends.reshape(-1, 2)].T
+    is_way = length > 0
+    has_wall = np.array([edge.behaviour == "WF" for edge in chart.edges], dtype=bool)
+    has_wall &= is_way & (length + before + after > 0)
+    ahead = (end - start) / np.where(is_way, length, 1.0)[:, None]
+    free = _rectangles(start, ahead, 0 * length - r0, length + r0, -r0, r0)
+    walls = _rectangles(start, ahead, -before, length + after, -r0 - thickness, -r0)
+    return free[is_way], walls[has_wall]
 
 
-def _rectangle(
+def _rectangles(
     start: NDArray[np.float64],
     ahead: NDArray[np.float64],
-    near: float,
-    far: float,
+    near: NDArray[np.float64],
+    far: NDArray[np.float64],
     right: float,
     left: float,
 ) -> NDArray[np.float64]:
-    """Return corners counter-clockwise, given along and to the left of a ray."""
-    side = np.array([-ahead[1], ahead[0]])
-    return np.array(
+    """Return corners (N, 4, 2) counter-clockwise, given along and left of rays."""
+    side = np.column_stack([-ahead[:, 1], ahead[:, 0]])
+    corners = (near, right), (far, right), (far, left), (near, left)
+    return np.stack(
         [
-            start + along * ahead + across * side
-            for along, across in (
-                (near, right),
-                (far, right),
-                (far, left),
-                (near, left),
-            )
-        ]
+            start + np.multiply(along, ahead.T).T + across * side
+            for along, across in corners
+        ],
+        axis=1,
     )

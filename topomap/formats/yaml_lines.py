@@ -6,7 +6,6 @@ import datetime
 import json
 import math
 import re
-from collections.abc import Iterator
 from typing import Any
 
 __all__ = ["yaml_text"]
@@ -40,43 +39,45 @@ def yaml_text(value: Any) -> str:
     edges: []
     <BLANKLINE>
     """
-    return "\n".join(_lines(value, "")) + "\n"
+    lines: list[str] = []
+    _add(value, "", lines, {})
+    return "\n".join(lines) + "\n"
 
 
-def _lines(value: Any, indent: str) -> Iterator[str]:
-    """Yield the lines of a value, each with its indent."""
+def _add(value: Any, indent: str, lines: list[str], known: dict[str, str]) -> None:
+    """Add the lines of a value, each with its indent."""
     if isinstance(value, dict) and value:
         for key, part in value.items():
-            name = f"{indent}{_scalar(key)}:"
-            if isinstance(part, dict) and part:
-                yield name
-                yield from _lines(part, indent + "  ")
-            elif isinstance(part, list | tuple) and part:
-                yield name
-                yield from _lines(part, indent)
+            name = f"{indent}{_scalar(key, known)}:"
+            if part and isinstance(part, dict | list | tuple):
+                lines.append(name)
+                below = indent + "  " if isinstance(part, dict) else indent
+                _add(part, below, lines, known)
             else:
-                yield f"{name} {_scalar(part)}"
+                lines.append(f"{name} {_scalar(part, known)}")
     elif isinstance(value, list | tuple) and value:
         for part in value:
+            first = len(lines)
+            _add(part, indent + "  ", lines, known)
             # The first line of a part stands behind its dash.
-            lines = _lines(part, indent + "  ")
-            yield f"{indent}- {next(lines)[len(indent) + 2 :]}"
-            yield from lines
+            lines[first] = f"{indent}- {lines[first][len(indent) + 2 :]}"
     else:
-        yield indent + _scalar(value)
+        lines.append(indent + _scalar(value, known))
 
 
-def _scalar(value: Any) -> str:
-    if value in ([], (), {}):
-        return "{}" if value == {} else "[]"
+def _scalar(value: Any, known: dict[str, str]) -> str:
+    """Return a scalar, or what is empty, as text; texts that were met are known."""
     if isinstance(value, str):
-        if PLAIN.fullmatch(value) and value.lower() not in WORDS:
-            return value
-        return json.dumps(value)  # which is YAML too
-    if isinstance(value, bool):
-        return "true" if value else "false"
+        if value not in known:
+            is_plain = PLAIN.fullmatch(value) and value.lower() not in WORDS
+            known[value] = value if is_plain else json.dumps(value)  # YAML too
+        return known[value]
     if isinstance(value, float):
         return _number(value)
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, dict | list | tuple):
+        return "{}" if isinstance(value, dict) else "[]"
     if isinstance(value, datetime.date):
         return value.isoformat()
     return "null" if value is None else str(value)
@@ -84,9 +85,9 @@ def _scalar(value: Any) -> str:
 
 def _number(value: float) -> str:
     """Return a float in a form that YAML 1.1 does not take for a text."""
-    if not math.isfinite(value):
-        return ".nan" if math.isnan(value) else ".inf" if value > 0 else "-.inf"
     text = repr(value)
+    if not math.isfinite(value):
+        return "." + text if value != -math.inf else "-.inf"
     if "e" in text and "." not in text:
         return text.replace("e", ".0e")
     return text
