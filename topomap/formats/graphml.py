@@ -74,7 +74,7 @@ def save_graphml(chart: TopologicalMap, path: str | PathLike[str]) -> None:
     ----------
     chart : TopologicalMap
         Nothing of it is lost; see `topomap.formats.graphs.flat` for the form that
-        lists take. Each edge also has its fused ``length`` and ``sigma``.
+        lists take.
     path : path-like
         Replaced if it is there.
 
@@ -91,8 +91,6 @@ def save_graphml(chart: TopologicalMap, path: str | PathLike[str]) -> None:
     for a map of 10,000 vertices.
     """
     document = to_document(chart)
-    for values, edge in zip(document["edges"], chart.edges, strict=True):
-        values["length"], values["sigma"] = edge.fused.value, edge.fused.sigma
     keys: dict[tuple[str, str, str], str] = {}
     body = ['  <graph edgedefault="undirected">']
     parameters = document["graph"].get("parameters", {})
@@ -207,8 +205,7 @@ class _Reader:
                 value = READ[kind](text)
             except (ValueError, KeyError):
                 raise self._fault(text[:40], f"a {kind}") from None
-            # What is fused is there for others: the lengths say it.
-            if self._owner is not None and name not in ("length", "sigma"):
+            if self._owner is not None:
                 self._owner[name] = value
             self._key = None
 

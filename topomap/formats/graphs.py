@@ -22,6 +22,8 @@ __all__ = ["flat", "from_document", "from_graph", "to_document", "to_graph", "un
 
 WORDS = "exits_deg", "unexplored_deg"
 """Lists of numbers that become words in a text where values must be flat."""
+ADDED = "key", "start", "length", "sigma"
+"""Attributes of an edge that the map file does not have."""
 GRID = "covariance_xx", "covariance_xy", "covariance_yx", "covariance_yy"
 
 Document = dict[str, Any]
@@ -41,7 +43,8 @@ def to_graph(chart: TopologicalMap) -> nx.MultiGraph[int]:
         Nodes are vertex ids. Node, edge and graph attributes are the fields of
         the map file, as numbers, texts and lists; those with a default value are
         left out. A graph without directions forgets which end of an edge is its
-        source: the edge attribute ``start`` says it.
+        source: the edge attribute ``start`` says it. The attributes ``length`` and
+        ``sigma`` are the lengths of an edge as one, for shortest paths, say.
 
     Examples
     --------
@@ -98,8 +101,15 @@ def to_document(chart: TopologicalMap) -> Document:
         ``edges``.
     """
     record = msgspec.to_builtins(to_record(chart))
+    for vertex in record["vertices"]:
+        # Lists, as JSON has them.
+        if "position" in vertex:
+            vertex["position"] = list(vertex["position"])
+        if "covariance" in vertex:
+            vertex["covariance"] = list(map(list, vertex["covariance"]))
     keys: dict[tuple[int, int], int] = {}
-    for edge in record["edges"]:
+    for edge, given in zip(record["edges"], chart.edges, strict=True):
+        edge["length"], edge["sigma"] = given.fused.value, given.fused.sigma
         low, high = sorted((edge["source"], edge["target"]))
         edge["start"] = edge["source"]
         edge["key"] = keys[low, high] = keys.get((low, high), -1) + 1
@@ -222,7 +232,7 @@ def _edge(values: Any) -> Any:
     """Return an edge as the map file has it, from its source to its target."""
     if not isinstance(values, dict):
         return values
-    found = {k: value for k, value in values.items() if k not in ("key", "start")}
+    found = {name: value for name, value in values.items() if name not in ADDED}
     if "start" in values and values["start"] == found.get("target"):
         found["source"], found["target"] = found["target"], found.get("source")
     return found
