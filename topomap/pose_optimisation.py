@@ -58,7 +58,7 @@ def optimise_poses(
     Returns
     -------
     Optimum
-        Headings in [-pi, pi].
+        Headings of poses that were free are in [-pi, pi].
 
     Raises
     ------
@@ -107,8 +107,9 @@ def optimise_poses(
     matrix, gradient = _normal_equations(best, place, len(free))
     for step in range(1, most_steps + 1):
         poses = best.poses.copy()
-        poses.reshape(-1)[free] -= _solve(matrix, gradient, damping)
-        poses[:, 2] = np.remainder(poses[:, 2] + np.pi, 2 * np.pi) - np.pi
+        found = poses.reshape(-1)[free] - _solve(matrix, gradient, damping)
+        found[2::3] = np.remainder(found[2::3] + np.pi, 2 * np.pi) - np.pi
+        poses.reshape(-1)[free] = found
         trial = replace(best, poses=poses) if np.isfinite(poses).all() else best
         there = chi2(trial)
         gain = here - there
