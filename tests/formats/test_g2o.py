@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from behaviours import Parameters, VertexType
@@ -21,9 +21,7 @@ from topomap.pose_optimisation import optimise_poses
 from topomap.topological_map import Length, same_direction
 from topomap.truth import true_map
 
-DATA = Path(
-    os.environ.get("TOPOMAP_DATA", Path(__file__).parents[3] / "shared/data")
-)
+DATA = Path(os.environ.get("TOPOMAP_DATA", Path(__file__).parents[3] / "shared/data"))
 FIELDS = "ids", "poses", "ends", "measurements", "information"
 
 
@@ -38,12 +36,14 @@ def there_and_back(graph, folder):
     return load_g2o(folder / "graph.g2o")
 
 
+@settings(deadline=None)
 @given(seed=seeds, fixed=st.sets(st.integers(0, 11), max_size=3))
 def test_a_pose_graph_comes_back_bit_for_bit(seed, fixed, tmp_path_factory):
     graph = replace(trip(np.random.default_rng(seed)), fixed=tuple(fixed))
     assert same(there_and_back(graph, tmp_path_factory.mktemp("g2o")), graph)
 
 
+@settings(deadline=None)
 @given(chart=charts(placed=True, straight=True))
 def test_a_map_comes_back_with_its_places_and_mean_lengths(chart, tmp_path_factory):
     folder = tmp_path_factory.mktemp("g2o")
@@ -63,6 +63,7 @@ def test_a_map_comes_back_with_its_places_and_mean_lengths(chart, tmp_path_facto
     assert taken + found.hidden + found.empty == len(chart.edges)
 
 
+@settings(deadline=None, max_examples=40)
 @given(world=random_worlds(12, 0, passage=0.9), seed=seeds)
 def test_the_best_poses_of_a_map_are_those_of_its_embedding(world, seed):
     rng = np.random.default_rng(seed)
@@ -170,6 +171,7 @@ def test_text_that_is_none_is_refused(tmp_path):
         load_g2o(tmp_path / "no.g2o")
 
 
+@settings(deadline=None)
 @given(data=st.data())
 def test_spoilt_g2o_is_refused_or_read(data):
     text = V + E

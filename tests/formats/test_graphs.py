@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import networkx as nx
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from networkx.utils import graphs_equal
 
@@ -51,6 +51,7 @@ def ordered(chart):
     return replace(chart, edges=tuple(edges))
 
 
+@settings(deadline=None)
 @given(chart=charts())
 def test_node_link_json_comes_back_equal(chart, tmp_path_factory):
     path = tmp_path_factory.mktemp("node-link") / "map.json"
@@ -58,6 +59,7 @@ def test_node_link_json_comes_back_equal(chart, tmp_path_factory):
     assert load_node_link(path) == chart
 
 
+@settings(deadline=None)
 @given(chart=charts())
 def test_networkx_reads_node_link_json_as_the_same_graph(chart, tmp_path_factory):
     path = tmp_path_factory.mktemp("node-link") / "map.json"
@@ -66,11 +68,13 @@ def test_networkx_reads_node_link_json_as_the_same_graph(chart, tmp_path_factory
     assert graphs_equal(read, to_graph(chart))
 
 
+@settings(deadline=None)
 @given(chart=charts())
 def test_a_map_comes_back_from_its_graph(chart):
     assert ordered(from_graph(to_graph(chart))) == ordered(chart)
 
 
+@settings(deadline=None)
 @given(chart=charts())
 def test_graphml_comes_back_equal(chart, tmp_path_factory):
     path = tmp_path_factory.mktemp("graphml") / "map.graphml"
@@ -78,6 +82,7 @@ def test_graphml_comes_back_equal(chart, tmp_path_factory):
     assert load_graphml(path) == chart
 
 
+@settings(deadline=None)
 @given(chart=charts())
 def test_networkx_reads_graphml_as_the_same_graph(chart, tmp_path_factory):
     path = tmp_path_factory.mktemp("graphml") / "map.graphml"
@@ -90,6 +95,7 @@ def test_networkx_reads_graphml_as_the_same_graph(chart, tmp_path_factory):
     assert graphs_equal(read, flat_graph(chart))
 
 
+@settings(deadline=None)
 @given(chart=charts())
 def test_graphml_that_networkx_wrote_is_read(chart, tmp_path_factory):
     graph = flat_graph(chart)
@@ -220,6 +226,7 @@ def _text(save, name):
         return Path(folder, name).read_text()
 
 
+@settings(deadline=None)
 @given(data=spoilt(_text(save_node_link, "map.json")))
 def test_spoilt_node_link_json_is_refused_or_read(data, tmp_path_factory):
     path = tmp_path_factory.mktemp("spoilt") / "map.json"
@@ -227,6 +234,7 @@ def test_spoilt_node_link_json_is_refused_or_read(data, tmp_path_factory):
     assert "\n" not in (refusal(load_node_link, path) or "")
 
 
+@settings(deadline=None)
 @given(data=st.data())
 def test_spoilt_graphml_is_refused_or_read(data, tmp_path_factory):
     text = _text(save_graphml, "map.graphml")

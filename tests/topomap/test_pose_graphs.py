@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from scipy.optimize import least_squares
 
 from tests.formats.pose_graphs import trip, turned
@@ -19,6 +19,7 @@ def moved(graph, flat):
     return replace(graph, poses=poses)
 
 
+@settings(deadline=None)
 @given(seed=seeds)
 def test_the_error_does_not_depend_on_the_frame(seed):
     rng = np.random.default_rng(seed)
@@ -27,6 +28,7 @@ def test_the_error_does_not_depend_on_the_frame(seed):
     np.testing.assert_allclose(residuals(other), residuals(graph), atol=1e-9)
 
 
+@settings(deadline=None)
 @given(seed=seeds)
 def test_slopes_are_those_of_finite_differences(seed):
     graph = trip(np.random.default_rng(seed))
@@ -61,6 +63,7 @@ def test_the_optimum_is_that_of_scipy(seed):
     assert found.before == chi2(graph) > found.after
 
 
+@settings(deadline=None)
 @given(seed=seeds)
 def test_exact_measurements_are_met(seed):
     graph = trip(np.random.default_rng(seed), noise=0.0, twist=0.02)

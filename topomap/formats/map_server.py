@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from topomap.errors import InputError
 from topomap.files.atomic import check_writable, write_atomically
 from topomap.formats.coverage import covered, grid_around
 from topomap.formats.swept_space import swept_space
+from topomap.formats.yaml_lines import yaml_text
 from worlds.world import World
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def _save(path: str | PathLike[str], grid: Grid, shades: NDArray[np.uint8]) -> N
     write_atomically(picture, head + shades[::-1].tobytes())
     write_atomically(
         target,
-        f"image: {json.dumps(picture.name)}\n"  # which is YAML too
+        f"{yaml_text({'image': picture.name})}"
         "mode: trinary\n"
         f"resolution: {grid.resolution!r}\n"
         f"origin: [{x!r}, {y!r}, 0.0]\n"

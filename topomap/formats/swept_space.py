@@ -56,11 +56,12 @@ def swept_space(
     [[0.5, -0.625], [2.5, -0.625], [2.5, -0.5], [0.5, -0.5]]
     """
     rows = {vertex.id: row for row, vertex in enumerate(chart.vertices)}
-    ends = np.array([(rows[e.source], rows[e.target]) for e in chart.edges])
-    start, end = places_of(chart)[ends.reshape(-1, 2)].transpose(1, 0, 2)
+    pairs = [(rows[edge.source], rows[edge.target]) for edge in chart.edges]
+    ends = np.array(pairs, dtype=np.int64).reshape(-1, 2)
+    start, end = places_of(chart)[ends].transpose(1, 0, 2)
     length = np.hypot(*(end - start).T)
     behind = np.array([r0 * BEHIND.get(v.type, 0.0) for v in chart.vertices])
-    before, after = behind[ends.reshape(-1, 2)].T
+    before, after = behind[ends].T
     is_way = length > 0
     has_wall = np.array([edge.behaviour == "WF" for edge in chart.edges], dtype=bool)
     has_wall &= is_way & (length + before + after > 0)

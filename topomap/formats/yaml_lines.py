@@ -70,7 +70,7 @@ def _scalar(value: Any, known: dict[str, str]) -> str:
     if isinstance(value, str):
         if value not in known:
             is_plain = PLAIN.fullmatch(value) and value.lower() not in WORDS
-            known[value] = value if is_plain else json.dumps(value)  # YAML too
+            known[value] = value if is_plain else _quoted(value)
         return known[value]
     if isinstance(value, float):
         return _number(value)
@@ -81,6 +81,12 @@ def _scalar(value: Any, known: dict[str, str]) -> str:
     if isinstance(value, datetime.date):
         return value.isoformat()
     return "null" if value is None else str(value)
+
+
+def _quoted(text: str) -> str:
+    """Return a text in quotes, escaped as both JSON and YAML know it."""
+    quoted = json.dumps(text, ensure_ascii=False)
+    return re.sub("[^ -~]", lambda found: f"\\U{ord(found[0]):08x}", quoted)
 
 
 def _number(value: float) -> str:
