@@ -19,7 +19,6 @@ from topomap.formats.text_files import read_text
 from topomap.pose_graph import PoseGraph, chi2
 from topomap.pose_optimisation import optimise_poses
 from topomap.topological_map import TopologicalMap
-from worlds.errors import WorldError
 from worlds.world import World
 
 __all__ = ["RESOLUTION", "Conversion", "convert"]
@@ -82,6 +81,8 @@ def convert(
     InputError
         If a format is unknown, is only written or does not hold such a thing, the
         source is broken, or the target cannot be written; then nothing is.
+    WorldError
+        If the source makes no world.
 
     Examples
     --------
@@ -181,8 +182,6 @@ def _read(form: Format, path: Path) -> Loaded:
         raise InputError(fspath(path), "format", form.name, "a format that can be read")
     try:
         return form.read(path)
-    except WorldError as error:
-        raise InputError(error.field, "", None, f"a world: {error.fault}") from None
     except InputError as error:
         if error.source:
             raise
