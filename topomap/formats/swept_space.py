@@ -37,11 +37,12 @@ def swept_space(
 
     Returns
     -------
-    free, walls : ndarray, shape (N, 4, 2)
+    free : ndarray, shape (N, 4, 2)
         Corners counter-clockwise, in metres. Free space reaches r0 to all sides of
-        a way and of its ends: where nothing is narrower than 2 r0, it is free. A
-        wall stands on the right of each edge that followed one, source to target;
-        jogs that are no corners are drawn as a slant.
+        a way and of its ends: where nothing is narrower than 2 r0, it is free.
+    walls : ndarray, shape (M, 4, 2)
+        A wall stands on the right of each edge that followed one, source to
+        target; jogs that are no corners are drawn as a slant.
 
     Examples
     --------
