@@ -12,6 +12,7 @@ __all__ = ["yaml_text"]
 
 PLAIN = re.compile(r"(?![+-])[A-Za-z$/_][A-Za-z0-9_/.$]*")
 """Texts that need no quotes unless they are words of YAML, to PyYAML."""
+PARTS = dict, list, tuple
 WORDS = frozenset(["yes", "no", "on", "off", "true", "false", "null"])
 
 
@@ -48,14 +49,18 @@ def _add(value: Any, indent: str, lines: list[str], known: dict[str, str]) -> No
     """Add the lines of a value, each with its indent."""
     if isinstance(value, dict) and value:
         for key, part in value.items():
-            name = f"{indent}{_scalar(key, known)}:"
-            if part and isinstance(part, dict | list | tuple):
-                lines.append(name)
+            name = known.get(key) or _scalar(key, known)
+            # Most parts are texts that were met before: a call each would cost more.
+            if type(part) is str:
+                text = known.get(part) or _scalar(part, known)
+                lines.append(f"{indent}{name}: {text}")
+            elif part and isinstance(part, PARTS):
+                lines.append(f"{indent}{name}:")
                 below = indent + "  " if isinstance(part, dict) else indent
                 _add(part, below, lines, known)
             else:
-                lines.append(f"{name} {_scalar(part, known)}")
-    elif isinstance(value, list | tuple) and value:
+                lines.append(f"{indent}{name}: {_scalar(part, known)}")
+    elif isinstance(value, PARTS) and value:
         for part in value:
             first = len(lines)
             _add(part, indent + "  ", lines, known)
@@ -76,7 +81,7 @@ def _scalar(value: Any, known: dict[str, str]) -> str:
         return _number(value)
     if isinstance(value, bool):
         return "true" if value else "false"
-    if isinstance(value, dict | list | tuple):
+    if isinstance(value, PARTS):
         return "{}" if isinstance(value, dict) else "[]"
     if isinstance(value, datetime.date):
         return value.isoformat()
