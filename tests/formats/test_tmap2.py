@@ -15,7 +15,8 @@ from behaviours import Parameters, VertexType
 from tests.strategies import charts, spoilt
 from topomap import InputError
 from topomap.formats.tmap2 import checked, load_tmap2, save_tmap2
-from topomap.formats.tmap2_maps import map_of_tmap2, tmap2_of_map
+from topomap.formats.tmap2_documents import tmap2_of_map
+from topomap.formats.tmap2_maps import map_of_tmap2
 from topomap.formats.yaml_lines import yaml_text
 from topomap.truth import true_map
 

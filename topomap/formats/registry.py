@@ -20,7 +20,8 @@ from topomap.formats.map_server import save_map_picture, save_world_picture
 from topomap.formats.node_link import load_node_link, save_node_link
 from topomap.formats.straight_maps import StraightMap
 from topomap.formats.tmap2 import load_tmap2, save_tmap2
-from topomap.formats.tmap2_maps import map_of_tmap2, tmap2_of_map
+from topomap.formats.tmap2_documents import tmap2_of_map
+from topomap.formats.tmap2_maps import map_of_tmap2
 from topomap.formats.tum import save_tum
 from topomap.pose_graph import PoseGraph
 from topomap.topological_map import TopologicalMap
