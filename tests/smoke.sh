@@ -74,6 +74,24 @@ field correct true
 expect 0 show ideal.json -o map.png
 wrote map.png
 
+# Other formats, there and back.
+for name in map.graphml map.node-link.json map.tmap2.yaml map.g2o; do
+    expect 0 convert ideal.json "$name"
+    expect 0 convert "$name" back.json
+    wrote "$name" back.json
+done
+for name in map.yaml map.geojson map.tum; do
+    expect 0 convert ideal.json "$name"
+    wrote "$name"
+done
+wrote map.pgm
+expect 0 convert l.json l.yaml
+expect 0 convert l.yaml back.json --json
+field target_format '"world"'
+
+expect 0 doctor --json
+expect 0 --show-completion bash
+
 # Bad input: exit code 2, one line that names the file and what is wrong.
 expect 2 build nowhere.json -o map.json
 one_line nowhere.json
