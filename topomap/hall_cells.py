@@ -172,7 +172,9 @@ def _rectangles(
     for number, (rows, columns) in enumerate(ndimage.find_objects(numbers), start=1):
         part = numbers[rows, columns] == number
         if not part.all():
-            raise _intricate(xs, ys, numbers == number, "a junction that is no rectangle")
+            raise _intricate(
+                xs, ys, numbers == number, "a junction that is no rectangle"
+            )
         yield (
             float(xs[rows.start]),
             float(ys[columns.start]),
@@ -229,7 +231,11 @@ def _stretches(
 def _end(kinds: NDArray[np.int64], run: tuple[int, int, int], step: int) -> End:
     """Return what lies beside a run."""
     k, start, stop = run
-    beside = set(kinds[k + step, start:stop].tolist()) if 0 <= k + step < len(kinds) else set()
+    beside = (
+        set(kinds[k + step, start:stop].tolist())
+        if 0 <= k + step < len(kinds)
+        else set()
+    )
     beside -= {-2, -3}
     if not beside:
         return Wall()
@@ -239,7 +245,10 @@ def _end(kinds: NDArray[np.int64], run: tuple[int, int, int], step: int) -> End:
 
 
 def _intricate(
-    xs: NDArray[np.float64], ys: NDArray[np.float64], cells: NDArray[np.bool_], what: str
+    xs: NDArray[np.float64],
+    ys: NDArray[np.float64],
+    cells: NDArray[np.bool_],
+    what: str,
 ) -> WorldError:
     i, j = np.argwhere(cells)[0]
     x, y = (xs[i] + xs[i + 1]) / 2, (ys[j] + ys[j + 1]) / 2

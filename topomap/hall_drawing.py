@@ -87,7 +87,6 @@ class Drawing:
         return TopologicalMap(vertices, edges, self.parameters)
 
 
-
 @dataclass(frozen=True, slots=True)
 class Mouth:
     """Where a hall opens into open space."""

@@ -64,9 +64,7 @@ class _Corner:
         return (self.leaving - self.arriving) % 4 == 1
 
 
-def true_hall_maps(
-    world: World, parameters: Parameters
-) -> tuple[TopologicalMap, ...]:
+def true_hall_maps(world: World, parameters: Parameters) -> tuple[TopologicalMap, ...]:
     """Find the true maps of a world that has halls.
 
     Parameters
@@ -161,7 +159,9 @@ def _loop(ring: list[tuple[float, float]], parameters: Parameters) -> list[_Corn
     return loop
 
 
-def _attach(mouth: Mouth, loops: list[list[_Corner]], parameters: Parameters) -> _Corner:
+def _attach(
+    mouth: Mouth, loops: list[list[_Corner]], parameters: Parameters
+) -> _Corner:
     """Find the vertex of a base loop that a hall opens at, or put one there."""
     r0 = parameters.r0
     heading = (mouth.out - 1) % 4
