@@ -77,6 +77,8 @@ class Robot:
         side = next(r for r in profile.rangers if looks_along(r, math.pi / 2))
         self.spot = math.tan(side.cone)
         """Half the width of a side ranger's spot of light, in parts of its range."""
+        self.slide = self.spot * (abs(side.y) + side.far)
+        """Farthest, in metres, from a wall's edge that its end face is seen."""
         self.margin = self.spot * self.parameters.r0 + STAND * self.parameters.r0
         """How far ahead of an edge that is abeam what follows is seen, in metres."""
         self.seed: Glance | None = None
@@ -207,10 +209,16 @@ class Robot:
             self.trace.popleft()
 
     def recall(
-        self, memory: Iterable[tuple[float, float, float, float]], shift: float
+        self,
+        memory: Iterable[tuple[float, float, float, float]],
+        shift: float,
+        gone: float,
     ) -> None:
-        """Take up what was seen before it went sideways, `shift` metres to the left."""
-        gone = abs(shift)
+        """Take up what was seen before the robot went sideways, and only that.
+
+        By `shift` metres to the left; the odometer shows `gone` metres more.
+        """
+        self.trace.clear()
         for odometer, _, left, right in memory:
             row = odometer + gone, self.turned, left - shift, right + shift
             self.trace.append(row)

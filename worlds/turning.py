@@ -11,7 +11,7 @@ from worlds.robot import Robot
 from worlds.scan import nearest_piece, wall_of_scan
 from worlds.straight import SURE, Control, go, settle, stop
 
-__all__ = ["align", "turn"]
+__all__ = ["align", "spin", "turn"]
 
 SWEEP = math.radians(50)
 """A wall to square up with is looked for so far to either side, in radians."""
