@@ -25,7 +25,7 @@ __all__ = ["SUFFIX", "check_page", "render_page", "save_page"]
 SUFFIX = ".html"
 SCRIPTS = (
     *("decode", "moment", "view", "theme", "maps", "actors", "describe"),
-    *("belief", "panel", "main"),
+    *("belief", "panel", "input", "main"),
 )
 """The page's scripts, in the order in which they build on each other."""
 UNSAFE = str.maketrans(

@@ -24,7 +24,6 @@ class BeliefChart {
     const ctx = sized(canvas, width, height);
     const px = (time) => pad.left + (time / (run.end || 1)) * (width - pad.left - pad.right);
     const py = (value) => height - pad.bottom - value * (height - pad.top - pad.bottom);
-    ctx.clearRect(0, 0, width, height);
     ctx.strokeStyle = palette.line;
     ctx.fillStyle = palette.soft;
     ctx.lineWidth = 1;
@@ -99,7 +98,7 @@ class BeliefChart {
   }
 }
 
-// Fit a canvas to its size on the screen, in real pixels, and return its context.
+// Fit a canvas to its size on the screen, in real pixels, and return it empty.
 function sized(canvas, width, height) {
   const ratio = window.devicePixelRatio || 1;
   const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
@@ -108,6 +107,8 @@ function sized(canvas, width, height) {
     canvas.height = h;
   }
   const ctx = canvas.getContext("2d");
+  ctx.setTransform(1, 0, 0, 1, 0, 0);
+  ctx.clearRect(0, 0, w, h);
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   return ctx;
 }

@@ -129,7 +129,7 @@ function again(moment, key) {
 }
 
 function clockText(t, unit) {
-  if (unit !== "s") return `${t.toFixed(1)}${unit ? ` ${unit}` : ""}`;
+  if (unit !== "s") return `${t.toFixed(1)}${unit && ` ${unit}`}`;
   const whole = Math.floor(t + 1e-6);
   const two = (value) => String(value).padStart(2, "0");
   const hours = Math.floor(whole / 3600);

@@ -9,7 +9,7 @@ function markSize(view) {
 
 function drawWalls(ctx, view, run, palette) {
   ctx.fillStyle = run.walls.length ? palette.outside : palette.free;
-  ctx.fillRect(0, 0, view.width, view.height);
+  ctx.fillRect(0, 0, view.width + 1, view.height + 1);
   if (!run.walls.length) return drawGrid(ctx, view, palette);
   const path = new Path2D();
   for (const ring of run.walls) {

@@ -28,7 +28,9 @@ function about(thing) {
   return box;
 }
 
-const HINT = "Point at a vertex, an edge or a robot; or press N.";
+const HINT = matchMedia("(pointer: coarse)").matches
+  ? "Tap a vertex, an edge or a robot."
+  : "Point at a vertex, an edge or a robot, or press N.";
 
 function showChosen(thing) {
   element("chosen").replaceChildren(thing ? about(thing) : make("p", HINT, "quiet"));
