@@ -8,13 +8,13 @@ from topomap.page.html import check_page, render_page, save_page
 from topomap.page.of_build import BuildRecorder, record_build
 from topomap.page.of_map import recording_of_map
 from topomap.page.of_merge import recording_of_merge
-from topomap.page.recording import (
+from topomap.page.recording import Recording
+from topomap.page.tracks import (
     Assignment,
     BeliefTrack,
     MapState,
     MapTrack,
     Message,
-    Recording,
     RobotTrack,
     VertexMatch,
 )

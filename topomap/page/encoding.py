@@ -12,10 +12,10 @@ from topomap.page.map_encoding import encode_states
 from topomap.page.numbers import differences, hundredths, thousandths
 
 if TYPE_CHECKING:
-    from topomap.page.recording import (
+    from topomap.page.recording import Recording
+    from topomap.page.tracks import (
         BeliefTrack,
         MapTrack,
-        Recording,
         RobotTrack,
     )
 

@@ -9,50 +9,55 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 
 if TYPE_CHECKING:
-    from topomap.page.recording import (
+    from topomap.page.tracks import (
+        Assignment,
         BeliefTrack,
         MapTrack,
-        Recording,
+        Message,
         RobotTrack,
+        VertexMatch,
     )
+    from worlds.world import Ring
 
 __all__ = ["Fault", "faults"]
 
 Fault: TypeAlias = tuple[str, object, str]
 
 
-def faults(run: Recording) -> Iterator[Fault]:
-    """Yield field, value and what was expected instead, for each fault.
+def faults(
+    walls: tuple[Ring, ...],
+    robots: tuple[RobotTrack, ...],
+    maps: tuple[MapTrack, ...],
+    hypotheses: tuple[BeliefTrack, ...],
+    matches: tuple[VertexMatch, ...],
+    assignments: tuple[Assignment, ...],
+    messages: tuple[Message, ...],
+) -> Iterator[Fault]:
+    """Yield field, value and what was expected instead, for each fault of a recording.
 
-    Parameters
-    ----------
-    run : Recording
-        Any.
+    What is asked for is what `topomap.page.recording.Recording` is made of.
     """
-    for k, ring in enumerate(run.walls):
+    for k, ring in enumerate(walls):
         if len(ring) < 3 or not np.isfinite(np.asarray(ring, dtype=float)).all():
             yield f"walls[{k}]", len(ring), "at least 3 corners of finite metres"
-    for k, robot in enumerate(run.robots):
+    for k, robot in enumerate(robots):
         yield from _of_robot(f"robots[{k}]", robot)
-    for k, chart in enumerate(run.maps):
+    for k, chart in enumerate(maps):
         yield from _of_map(f"maps[{k}]", chart)
-    for k, hypothesis in enumerate(run.hypotheses):
+    for k, hypothesis in enumerate(hypotheses):
         yield from _of_belief(f"hypotheses[{k}]", hypothesis)
-    yield from _of_matches(run)
-    for name, things in (("assignments", run.assignments), ("messages", run.messages)):
-        yield from _of_times(name, [thing.time for thing in things])
-    for k, assignment in enumerate(run.assignments):
-        yield from _of_index(
-            f"assignments[{k}].robot", assignment.robot, run.robots, "robot"
-        )
-        target = assignment.target
-        if target is not None and not all(map(math.isfinite, target)):
-            yield f"assignments[{k}].target", target, "finite metres"
-    for k, message in enumerate(run.messages):
+    yield from _of_matches(maps, matches)
+    yield from _of_times("assignments", [sent.time for sent in assignments])
+    for k, sent in enumerate(assignments):
+        yield from _of_index(f"assignments[{k}].robot", sent.robot, robots, "robot")
+        if sent.target is not None and not all(map(math.isfinite, sent.target)):
+            yield f"assignments[{k}].target", sent.target, "finite metres"
+    yield from _of_times("messages", [said.time for said in messages])
+    for k, said in enumerate(messages):
         for end in ("sender", "receiver"):
-            robot = getattr(message, end)
-            if robot is not None:
-                yield from _of_index(f"messages[{k}].{end}", robot, run.robots, "robot")
+            robot_k = getattr(said, end)
+            if robot_k is not None:
+                yield from _of_index(f"messages[{k}].{end}", robot_k, robots, "robot")
 
 
 def _of_robot(field: str, robot: RobotTrack) -> Iterator[Fault]:
@@ -95,12 +100,14 @@ def _of_belief(field: str, track: BeliefTrack) -> Iterator[Fault]:
         yield f"{field}.accepted", track.accepted.shape, f"shape {shape}"
 
 
-def _of_matches(run: Recording) -> Iterator[Fault]:
+def _of_matches(
+    maps: tuple[MapTrack, ...], matches: tuple[VertexMatch, ...]
+) -> Iterator[Fault]:
     known = [
         {vertex.id for state in chart.states for vertex in state.map.vertices}
-        for chart in run.maps
+        for chart in maps
     ]
-    for k, match in enumerate(run.matches):
+    for k, match in enumerate(matches):
         if not math.isfinite(match.time):
             yield f"matches[{k}].time", match.time, "a finite time"
         for end in ("a", "b"):
@@ -108,7 +115,7 @@ def _of_matches(run: Recording) -> Iterator[Fault]:
                 getattr(match, f"map_{end}"),
                 getattr(match, f"vertex_{end}"),
             )
-            wrong = list(_of_index(f"matches[{k}].map_{end}", chart, run.maps, "map"))
+            wrong = list(_of_index(f"matches[{k}].map_{end}", chart, maps, "map"))
             yield from wrong
             if not wrong and vertex not in known[chart]:
                 yield f"matches[{k}].vertex_{end}", vertex, f"a vertex of map {chart}"

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from topomap.page.recording import MapState
+    from topomap.page.tracks import MapState
     from topomap.topological_map import TopologicalMap
 
 __all__ = ["encode_states"]

@@ -140,9 +140,11 @@ def thinned(times: Floats, poses: Floats) -> tuple[Floats, Floats]:
 
     Returns
     -------
-    times, poses : array
+    times : array
         What is left: every fifth, and those between where the robot strayed by more
         than 5 mm or 0.02 rad.
+    poses : array
+        At these times.
     """
     count = (len(times) - 1) // BLOCK
     if count < 1:

@@ -3,30 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
-from dataclasses import dataclass, field
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from behaviours.follow_wall import Leg
 from behaviours.vertices import VertexType
-from merge.rigid import RigidTransform
-from topomap.boundary import Walk
-from topomap.folding import fold
+from topomap.page.loops import Loop, beliefs, growth
 from topomap.page.motion import Motion, Placed, WatchedBody, ranges_along
-from topomap.page.recording import (
-    BeliefTrack,
-    MapState,
+from topomap.page.recording import Recording
+from topomap.page.tracks import (
     MapTrack,
     Message,
-    Recording,
     RobotTrack,
 )
 from worlds.profile import Ranger
 
 if TYPE_CHECKING:
-    from behaviours.parameters import Parameters
     from behaviours.port import Body
     from evidence.walls import Decision, LoopCloser, Wall
     from topomap.mapping import Build
@@ -35,22 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = ["BuildRecorder", "record_build"]
 
-MAX_STATES = 250
-"""A map is shown at so many moments of its growth, at most."""
 SIDES = 0.0, math.pi / 2, -math.pi / 2
 """Where a body looks whose rangers are not known: ahead, left, right."""
-
-
-@dataclass(slots=True)
-class _Loop:
-    """A boundary that is being walked."""
-
-    first: VertexType
-    origin: tuple[float, float, float]
-    """True pose at v_0."""
-    times: list[float] = field(default_factory=list)
-    legs: list[Leg] = field(default_factory=list)
-    decisions: list[Decision] = field(default_factory=list)
 
 
 class BuildRecorder:
@@ -78,7 +58,7 @@ class BuildRecorder:
         self._profile = profile
         self._body: Any = None
         self._motion: Motion | None = None
-        self._loops: list[_Loop] = []
+        self._loops: list[Loop] = []
 
     def watch(self, body: Body) -> Body:
         """Begin to note where a body is; return what is to be used in its place.
@@ -104,7 +84,7 @@ class BuildRecorder:
 
     def began(self, kind: str) -> None:
         """Note that a loop begins here, at its v_0."""
-        self._loops.append(_Loop(VertexType(kind), self._body.pose))
+        self._loops.append(Loop(VertexType(kind), self._body.pose))
 
     def observed(self, wall: Wall, decision: Decision) -> None:
         """Note a wall that was walked, and what was made of it."""
@@ -135,17 +115,26 @@ class BuildRecorder:
             facts=_facts(built),
             walls=self._world.rings,
             robots=(self._track(),),
-            maps=tuple(
-                _growth(k, loop, self._body.parameters, self._sigma)
-                for k, loop in enumerate(loops)
-            ),
-            hypotheses=tuple(b for loop in loops for b in _beliefs(loop)),
+            maps=self._maps(loops, built),
+            hypotheses=tuple(b for loop in loops for b in beliefs(loop)),
             messages=tuple(
                 Message(time, decision.reason)
                 for loop in loops
                 for time, decision in zip(loop.times, loop.decisions, strict=True)
             ),
         )
+
+    def _maps(self, loops: list[Loop], built: Build) -> tuple[MapTrack, ...]:
+        """Return the map of each loop; of a single one, the last is what was built."""
+        tracks = [
+            growth(f"map {k + 1}", loop, self._body.parameters, self._sigma)
+            for k, loop in enumerate(loops)
+        ]
+        if len(tracks) == 1:
+            *before, last = tracks[0].states
+            states = (*before, replace(last, map=built.map))
+            tracks = [MapTrack("map", states)]
+        return tuple(tracks)
 
     def _track(self) -> RobotTrack:
         from worlds.sensors import ray_table
@@ -244,46 +233,6 @@ def record_build(
         **options,
     )
     return built, recorder.recording(built)
-
-
-def _growth(number: int, loop: _Loop, parameters: Parameters, sigma: float) -> MapTrack:
-    """Return the map of a loop after each wall, or after as many as can be shown."""
-    x, y, heading = loop.origin
-    quarter = round(heading / (math.pi / 2)) * math.pi / 2
-    placement = RigidTransform(math.remainder(quarter, math.tau), x, y)
-    shown = np.linspace(1, len(loop.legs), MAX_STATES).round().astype(int)
-    states = []
-    for count in sorted({*shown.tolist()}):
-        walk = Walk(loop.first, tuple(loop.legs[:count]), tuple(loop.decisions[:count]))
-        chart = fold(walk, parameters, sigma)
-        states.append(MapState(loop.times[count - 1], chart, placement))
-    return MapTrack("map" if not number else f"map {number + 1}", tuple(states))
-
-
-def _beliefs(loop: _Loop) -> list[BeliefTrack]:
-    """Return what was believed of each hypothesis from when it was opened."""
-    rows: dict[int, list[tuple[float, float, float, bool]]] = defaultdict(list)
-    for time, decision in zip(loop.times, loop.decisions, strict=True):
-        alive = {hypothesis.period for hypothesis in decision.hypotheses}
-        for hypothesis in decision.hypotheses:
-            rows[hypothesis.period].append(
-                (
-                    time,
-                    min(max(hypothesis.belief, 0.0), 1.0),
-                    min(max(hypothesis.plausibility, 0.0), 1.0),
-                    hypothesis.period == decision.period,
-                )
-            )
-        for period, known in rows.items():
-            if period not in alive and known[-1][2] > 0:
-                known.append((time, 0.0, 0.0, False))
-    return [
-        BeliefTrack(
-            f"the loop has {period} walls",
-            *(np.array(column) for column in zip(*known, strict=True)),
-        )
-        for period, known in sorted(rows.items())
-    ]
 
 
 def _facts(built: Build) -> tuple[tuple[str, str], ...]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from topomap.page.recording import MapState, MapTrack, Recording
+from topomap.page.recording import Recording
+from topomap.page.tracks import MapState, MapTrack
 
 if TYPE_CHECKING:
     from topomap.topological_map import TopologicalMap

@@ -10,11 +10,11 @@ import numpy as np
 
 from merge.rigid import RigidTransform
 from topomap.embedding import embedded
-from topomap.page.recording import (
+from topomap.page.recording import Recording
+from topomap.page.tracks import (
     MapState,
     MapTrack,
     Message,
-    Recording,
     VertexMatch,
 )
 
