@@ -21,7 +21,7 @@ import worlds
 from topomap.page import record_build, save_page
 
 SIZE = 1200, 720
-MOMENT = 0.93
+MOMENT = 1.0
 """Of the run, as a part of it."""
 COLOURS = 255
 """Enough for a page without photographs."""
@@ -53,9 +53,8 @@ def screenshot(page: Path, moment: float) -> bytes:
 
 def main(folder: str) -> None:
     """Record a build by a physical robot and take its picture."""
-    rng = np.random.default_rng(7)
-    world = worlds.make("random", rng, corners=24, islands=1)
-    _, run = record_build(world, rng, body="physical", sigma=0.03)
+    world = worlds.make("random", np.random.default_rng(7), corners=24, islands=1)
+    _, run = record_build(world, np.random.default_rng(1), body="physical")
     with tempfile.TemporaryDirectory() as place:
         page = Path(place, "run.html")
         save_page(run, page)
