@@ -156,6 +156,7 @@ new ResizeObserver(() => {
   view.height = Math.max(height, 1);
   if (isFitted) view.fit(box);
   draw();
+  performance.mark("drawn");
 }).observe(element("stage"));
 
 const asked = /^#t=([\d.]+)$/.exec(location.hash);
