@@ -27,8 +27,9 @@ types: $(VENV)/.developer ## static types, strict
 docs: $(VENV)/.developer ## the documentation, into site/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
-pictures: $(VENV)/.developer ## draw the pictures that README shows anew
+pictures: $(VENV)/.developer ## draw the committed pictures anew; needs chromium
 	$(BIN)/python docs/figures.py docs/pictures
+	$(BIN)/python docs/screenshot.py docs/pictures
 
 bench: $(VENV)/.developer ## benchmarks, as ratios to a named rival
 	$(BIN)/python -m pytest -o addopts= --import-mode=importlib --benchmark-only tests/benchmarks

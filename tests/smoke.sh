@@ -72,7 +72,10 @@ done
 expect 0 compare ideal.json physical.json --json
 field correct true
 expect 0 show ideal.json -o map.png
-wrote map.png
+expect 0 show ideal.json -o map.html
+expect 0 build l.json -o paged.json --sigma 0.05 --seed 2 --page run.html
+cmp -s paged.json ideal.json || fail "build --page: another map than without"
+wrote map.png map.html run.html
 
 # Other formats, there and back.
 for name in map.graphml map.node-link.json map.tmap2.yaml map.g2o; do

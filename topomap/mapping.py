@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -121,6 +122,7 @@ def build_map(
     parameters: Parameters | None = None,
     closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
+    watch: Callable[[Body], Body] | None = None,
 ) -> Build:
     """Set a robot down in a world and let it map all it can reach along walls.
 
@@ -145,6 +147,9 @@ def build_map(
         `topomap.closers.CLOSINGS`.
     max_walls : int
         The loop is given up as open after so many walls.
+    watch : callable, optional
+        Given the body before it moves; what it returns is used in its place. So a
+        recorder can look on, as `topomap.page.BuildRecorder` does.
 
     Returns
     -------
@@ -187,6 +192,8 @@ def build_map(
         start = choose_start(world, parameters, start_rng)
     check_start(world, parameters, start)
     robot = make_body(body, world, start, body_rng, sigma=sigma, parameters=parameters)
+    if watch is not None:
+        robot = watch(robot)
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )

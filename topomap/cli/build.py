@@ -10,6 +10,7 @@ import typer
 
 if TYPE_CHECKING:
     from topomap.mapping import Build
+    from topomap.page import BuildRecorder
     from worlds.pose import Pose
     from worlds.world import World
 
@@ -38,6 +39,9 @@ def build(
     plot: Annotated[
         Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
     ] = None,
+    page: Annotated[
+        Path | None, typer.Option(help="Page to write that replays the run: .html.")
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object and nothing else.")
     ] = False,
@@ -59,6 +63,11 @@ def build(
     check_writable(output)
     if plot is not None:
         check_picture(plot)
+    if page is not None:
+        from topomap.page.html import check_page
+
+        check_page(page)
+    recorder = None if page is None else _recorder(place, sigma, body)
     began = time.perf_counter()
     with (
         naming(world),
@@ -70,12 +79,17 @@ def build(
             body=body,
             sigma=sigma,
             start=None if start is None else _pose(start),
-            closing=closer,
+            closing=closer if recorder is None else recorder.listen(closer),
             max_walls=max_walls,
+            watch=None if recorder is None else recorder.watch,
         )
     elapsed = time.perf_counter() - began
     if plot is not None:
         draw_build(built, place, plot)
+    if page is not None and recorder is not None:
+        from topomap.page.html import save_page
+
+        save_page(recorder.recording(built), page)
     if built.closed:
         save_map(built.map, output)
     if as_json:
@@ -114,6 +128,14 @@ def draw_build(built: Build, world: World, path: Path) -> None:
     from topomap.drawing import save_figure
 
     save_figure(path, lambda figure: fill_figure(built, world, figure))
+
+
+def _recorder(world: World, sigma: float, body: str) -> BuildRecorder:
+    """Return what looks on while the map is built."""
+    from topomap.bodies import body_profile
+    from topomap.page.of_build import BuildRecorder
+
+    return BuildRecorder(world, sigma, body_profile(body))
 
 
 def _pose(text: str) -> Pose:

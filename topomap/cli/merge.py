@@ -43,6 +43,9 @@ def merge(
     plot: Annotated[
         Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
     ] = None,
+    page: Annotated[
+        Path | None, typer.Option(help="Page to write that shows the merge: .html.")
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object and nothing else.")
     ] = False,
@@ -56,6 +59,10 @@ def merge(
 
     if not 0 < false_merge < 1:
         raise InputError("merge", "--false-merge", false_merge, "a share in (0, 1)")
+    if page is not None:
+        from topomap.page.html import check_page
+
+        check_page(page)
     charts = [load_map(path) for path in maps]
     began = time.perf_counter()
     options = Options(false_merge=false_merge, doors=doors, tolerate_rim=tolerate_rim)
@@ -69,6 +76,11 @@ def merge(
         from topomap.merge_drawing import draw_merge
 
         save_figure(plot, lambda figure: draw_merge(found, charts, figure))
+    if page is not None:
+        from topomap.page import recording_of_merge, save_page
+
+        names = [path.stem for path in maps]
+        save_page(recording_of_merge(found, charts, names), page)
     if as_json:
         show_json(summary(found, elapsed))
     if not found.accepted and not force:
