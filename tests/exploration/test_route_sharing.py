@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from topomap.errors import InputError
 from topomap.exploration import Details, Settings, explore_grid, routes
-from topomap.exploration.grid_worlds import maze
+from topomap.exploration.grid_worlds import office
 from topomap.exploration.starts import central_starts
 
 
@@ -152,15 +152,14 @@ def test_what_cannot_be_reached_is_not_chosen():
     assert routes(costs, Details()).tolist() == [-1, 1, 1]
 
 
-def test_two_robots_explore_a_maze_without_swinging():
-    for seed in range(3):
-        rng = np.random.default_rng(seed)
-        free = maze(rng, 25)
-        starts = central_starts(free, 2, rng)
-        run = explore_grid(free, starts, Settings(allocator="routes", reach=6))
-        nearest = explore_grid(free, starts, Settings(allocator="mindist", reach=6))
-        assert run.complete
-        assert run.time < 2 * nearest.time
+def test_two_robots_explore_an_office_without_swinging():
+    rng = np.random.default_rng(3)  # without `previous` they swing for ever
+    free = office(rng, rooms=4, floors=2)
+    starts = central_starts(free, 2, rng)
+    run = explore_grid(free, starts, Settings("routes", reach=6, limit=1200))
+    nearest = explore_grid(free, starts, Settings("mindist", reach=6))
+    assert run.complete
+    assert run.time < 1.2 * nearest.time
 
 
 @pytest.mark.parametrize(
