@@ -30,7 +30,7 @@ def routes(
     costs: Costs,
     details: Details,
     pace: float = 0.2,
-    keep: float = 0.1,
+    keep: float = 0.05,
     part: float = 2.4,
 ) -> NDArray[np.int64]:
     r"""Send each robot to the first frontier of its route over all of them.
