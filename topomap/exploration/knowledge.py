@@ -58,17 +58,9 @@ def known_details(
     previous: Ints | None,
     headings: Ints | None,
 ) -> Details:
-    """Return what the allocator of the settings uses beside the costs.
+    """Return what the allocator uses beside the costs; arguments as of `decide`.
 
-    Parameters
-    ----------
-    seen, open_, width, robots, frontiers, settings, previous, headings
-        As `decide` in `topomap.exploration.decisions`.
-
-    Returns
-    -------
-    Details
-        Without the costly parts that the allocator does not need.
+    The costly parts that it does not need are left out.
     """
     from topomap.exploration.beyond_kernel import beyond
     from topomap.exploration.exploring_kernel import table
