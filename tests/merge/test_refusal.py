@@ -7,11 +7,12 @@ import pytest
 
 from merge.chance import false_merge_probability
 from merge.graph import Graph
+from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out
 from merge.makers import cut, make_maze, perturb, turn
 from merge.options import Options
 from merge.pairwise import match
-from merge.repeats import find_repeats
+from merge.repeats import Copies, find_copies, told_by_copies
 
 E, N, W, S = 0.0, math.pi / 2, math.pi, 3 * math.pi / 2
 BACK = {E: W, N: S, W: E, S: N}
@@ -202,19 +203,40 @@ def test_options_out_of_range(name, value, message):
         Options(**{name: value})
 
 
-def flags(graph, vertices):
-    return find_repeats(graph, lay_out(graph), np.array(vertices), Options())
+def told_share(graph, vertices):
+    """Return how much of a map's match with a part of itself copies explain."""
+    vertices = np.array(vertices)
+    part = lay_out(cut(graph, vertices))
+    score = grow_hypotheses(part, lay_out(graph), Options()).score.max()
+    copies = find_copies(graph, lay_out(graph), vertices, Options())
+    return told_by_copies([copies], len(vertices), score) / score
 
 
 def test_parts_repeated_in_large_are_found_and_unequal_ones_are_not():
     rng = np.random.default_rng(2)
     equal = perturb(corridor(1, 7), 0.01, rng)
-    assert flags(equal, range(len(equal) - 6)).mean() > 0.5
+    assert told_share(equal, range(len(equal) - 6)) > 0.5
     unequal = perturb(make_maze(6, 6, rng), 0.01, rng)
-    assert not flags(unequal, range(len(unequal))).any()
+    assert told_share(unequal, range(len(unequal))) == 0
 
 
 def test_half_a_symmetric_building_is_the_other_half_again():
     whole = perturb(rotunda(), 0.01, np.random.default_rng(0))
     half = len(whole) // 2
-    assert flags(whole, range(half)).all()
+    assert told_share(whole, range(half)) > 0.7
+
+
+def test_copies_explain_each_vertex_once_and_no_more_than_its_score():
+    def told(*parts):
+        first = np.arange(len(parts) + 1) * 6
+        rows = [np.arange(6) + start for start, _ in parts]
+        copies = Copies(
+            first, np.concatenate(rows), np.array([gain for _, gain in parts])
+        )
+        return told_by_copies([copies], 12, 30.0)
+
+    assert told_by_copies([], 12, 30.0) == 0
+    assert told((0, 9.0)) == 9.0
+    assert told((0, 9.0), (0, 8.0)) == 9.0
+    assert told((0, 9.0), (3, 8.0)) == 13.0
+    assert told((0, 99.0), (6, 9.0)) == 24.0
