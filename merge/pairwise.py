@@ -84,7 +84,8 @@ def match(a: Graph, b: Graph, options: Options | None = None) -> Match:
     Two halves of one maze, of which the second lies askew:
 
     >>> import numpy as np
-    >>> from merge.makers import breadth_first, cut, make_maze, perturb, turn
+    >>> from merge.makers import breadth_first, cut, perturb, turn
+    >>> from merge.mazes import make_maze
     >>> rng = np.random.default_rng(7)
     >>> maze = make_maze(8, 8, rng)
     >>> one = perturb(cut(maze, breadth_first(maze, 0, 24)), 0.03, rng)

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from merge.again import match_again, remember
-from merge.makers import breadth_first, cut, make_maze, perturb
+from merge.makers import breadth_first, cut, perturb
+from merge.mazes import make_maze
 from merge.options import Options
 from merge.pairwise import match
 

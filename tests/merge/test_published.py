@@ -8,7 +8,8 @@ import pytest
 from merge.graph import Graph
 from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out, sign
-from merge.makers import breadth_first, cut, make_maze, perturb, turn
+from merge.makers import breadth_first, cut, perturb, turn
+from merge.mazes import make_maze
 from merge.options import Options
 from merge.published import compatible_pairings, grow_published
 

@@ -19,6 +19,8 @@ MODULES = (
     "topomap.experiments.floor_plans",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
+    "topomap.experiments.merging_fleets",
+    "topomap.experiments.merging_plans",
 )
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
 
