@@ -5,9 +5,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
@@ -110,7 +108,7 @@ def _disagreeing_cycle(
     left_out: tuple[int, ...],
 ) -> list[int]:
     """Return the shortest cycle found that does not agree, or nothing."""
-    tree: nx.Graph[int] = nx.Graph()
+    tree: list[dict[int, int]] = [{} for _ in positions]
     group = list(range(len(positions)))
     pose = [RigidTransform() for _ in positions]
     closing = []
@@ -126,14 +124,29 @@ def _disagreeing_cycle(
         for chart, of in enumerate(group):
             if of == old:
                 pose[chart], group[chart] = shift.after(pose[chart]), new
-        tree.add_edge(a, b, k=k)
+        tree[a][b] = tree[b][a] = k
     shortest: list[int] = []
     for k in closing:
         a, b, move = overlays[k].a, overlays[k].b, overlays[k].move
         points = positions[b]
         off = pose[a].inverse().after(pose[b])(points) - move(points)
         if (off**2).sum(axis=1).mean() > slack**2:
-            way = nx.shortest_path(tree, a, b)
-            if not shortest or len(way) < len(shortest):
-                shortest = [k, *(tree[u][v]["k"] for u, v in pairwise(way))]
+            cycle = [k, *_way(tree, a, b)]
+            if not shortest or len(cycle) < len(shortest):
+                shortest = cycle
     return shortest
+
+
+def _way(tree: list[dict[int, int]], start: int, end: int) -> list[int]:
+    """Return the overlays on the way between two maps of a tree."""
+    came = {start: start}
+    todo = [start]
+    for chart in todo:
+        for other in tree[chart].keys() - came.keys():
+            came[other] = chart
+            todo.append(other)
+    way = []
+    while end != start:
+        way.append(tree[end][came[end]])
+        end = came[end]
+    return way

@@ -114,11 +114,13 @@ def merge_fleet(
         (i, j) if names[i] <= names[j] else (j, i)
         for i, j in itertools.combinations(range(len(graphs)), 2)
     ]
+    at = [embed(g) if g.positions is None else g.positions for g in graphs]
+    placed = [replace(g, positions=p) for g, p in zip(graphs, at, strict=True)]
     found = list(
         mapper(
             partial(_match, options=options),
-            [graphs[i] for i, _ in couples],
-            [graphs[j] for _, j in couples],
+            [placed[i] for i, _ in couples],
+            [placed[j] for _, j in couples],
         )
     )
     order = sorted(
@@ -130,7 +132,6 @@ def merge_fleet(
             names[couples[k][1]],
         ),
     )
-    at = [embed(g) if g.positions is None else g.positions for g in graphs]
     places = Places([len(graph) for graph in graphs], at, _slack(graphs))
     links: dict[int, Link] = {}
     agreeing = _agreeing(couples, found, order, at, _slack(graphs))

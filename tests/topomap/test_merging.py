@@ -127,3 +127,38 @@ def test_share_out_of_range_is_bad_input(tmp_path, capsys):
     assert "--false-merge: expected a share in (0, 1); got 0.0" in (
         capsys.readouterr().err
     )
+
+
+def test_two_worker_processes_and_a_cluster_of_two_say_what_one_process_says(
+    tmp_path, capsys
+):
+    distributed = pytest.importorskip("distributed")
+    chart = truth(1)
+    rng = np.random.default_rng(0)
+    ids = [v.id for v in chart.vertices]
+    size = int(0.75 * len(ids))
+    parts = [
+        part(chart, ids[k * len(ids) // 3], size, float(k), 0.03, rng) for k in range(3)
+    ]
+    paths = write(tmp_path, *parts)
+
+    def told(name, *more):
+        out = tmp_path / name
+        assert main(["merge", *paths, "-o", str(out), "--json", *more]) == 0
+        said = json.loads(capsys.readouterr().out)
+        del said["elapsed_s"]
+        return said, out.read_text()
+
+    alone = told("alone.json")
+    assert alone[0]["matched_vertices"] > 0
+    assert told("pool.json", "--workers", "2") == alone
+    with distributed.LocalCluster(
+        n_workers=2,
+        threads_per_worker=1,
+        processes=False,
+        protocol="tcp://",
+        dashboard_address=None,
+    ) as cluster:
+        assert told("dask.json", "--scheduler", cluster.scheduler_address) == alone
+        ran = cluster.scheduler.transition_log
+    assert any("_match" in str(row[0]) for row in ran)

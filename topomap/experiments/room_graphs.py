@@ -54,7 +54,8 @@ def room_graph(path: Path) -> Graph | None:
     ]
     if not parts:
         return None
-    return _graph(links.subgraph(sorted(max(parts, key=len))))
+    largest = max(parts, key=len)
+    return _graph(links.subgraph(sorted(largest)))
 
 
 def _graph(links: nx.Graph[str]) -> Graph:
