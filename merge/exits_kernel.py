@@ -1,16 +1,15 @@
-"""Which exits of two vertices correspond, and whether edges do: compiled.
+"""Which exits of two vertices correspond, and whether edges do.
 
-Used by `merge.kernel`. Darts, twins and the rest are those of `merge.layout`.
+Plain Python that `merge.compiled` compiles. Darts, twins and the rest are those of
+`merge.layout`.
 """
 
 # mypy: ignore-errors
-# Compiled functions take their types from the call, and say them in no annotation.
+# What is compiled takes its types from the call, and says them in no annotation.
 
 from __future__ import annotations
 
 import math
-
-from numba import njit
 
 __all__ = ["MOST", "correspond", "lengths_agree", "rotate"]
 
@@ -18,7 +17,6 @@ MOST = 64
 """More exits than that no vertex may have."""
 
 
-@njit(cache=True)
 def rotate(a, b, du, dw, partner):
     """Match the exits at two vertices that look the same from darts du and dw."""
     u, w = a.owner[du], b.owner[dw]
@@ -28,7 +26,6 @@ def rotate(a, b, du, dw, partner):
         partner[i] = (i + offset) % m
 
 
-@njit(cache=True)
 def correspond(a, b, du, dw, tol, slack, partner):
     """Match the exits at two vertices whose darts du and dw correspond.
 
@@ -78,7 +75,6 @@ def correspond(a, b, du, dw, tol, slack, partner):
     return not ((a.complete[u] and left > 0) or (b.complete[w] and alone > 0))
 
 
-@njit(cache=True)
 def lengths_agree(a, b, da, db, most):
     """Tell whether the lengths at two darts differ by no more than chance allows."""
     d = a.length[da] - b.length[db]

@@ -106,7 +106,12 @@ def grow_hypotheses(
     .. [K] S. Kadi, "Exploration multi-robots dans des environnements partiellement
        connus", Université de Constantine, 2009.
     """
-    from merge.kernel import grow_all
+    if options.compiled:
+        from merge.compiled import compiled_grow_all
+
+        grow_all = compiled_grow_all()
+    else:
+        from merge.kernel import grow_all
 
     signatures = sign(a, b)
     width = int(max(signatures.a.max(initial=0), signatures.b.max(initial=0))) + 1

@@ -1,18 +1,18 @@
-"""Which parts of two maps correspond: pair and grow, compiled.
+"""Which parts of two maps correspond: pair and grow.
 
-The hot loops of `merge.hypotheses`; imported where first needed, as the compiler
-takes a moment to load. Darts, twins and the rest are those of `merge.layout`.
+The hot loops of `merge.hypotheses`, in plain Python that `merge.compiled` compiles;
+both give the same to the last bit. Darts, twins and the rest are those of
+`merge.layout`.
 """
 
 # mypy: ignore-errors
-# Compiled functions take their types from the call, and say them in no annotation.
+# What is compiled takes its types from the call, and says them in no annotation.
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-from numba import njit
 
 from merge.exits_kernel import MOST, correspond, lengths_agree, rotate
 
@@ -22,18 +22,16 @@ UNIT = 1048576.0
 """Scores are added as whole numbers of one part in so many."""
 
 
-@njit(cache=True)
 def slot_of(keys, key):
     """Return where a key is, or is to be put, in an open table."""
     mask = len(keys) - 1
-    h = key * np.int64(-7046029254386353131)
-    k = (h ^ (h >> np.int64(29))) & mask
+    h = (key ^ (key >> 17)) * 40503
+    k = (h ^ (h >> 13)) & mask
     while keys[k] != -1 and keys[k] != key:
         k = (k + 1) & mask
     return k
 
 
-@njit(cache=True)
 def put(table, held, key):
     """Add a key to an open table, and return the table and how many it holds."""
     if 2 * (held + 1) > len(table):
@@ -46,7 +44,6 @@ def put(table, held, key):
     return table, held + 1
 
 
-@njit(cache=True)
 def extended(rows, filled, more):
     """Return an array of integers with room for so many more in its last axis."""
     size = rows.shape[1]
@@ -57,7 +54,6 @@ def extended(rows, filled, more):
     return bigger
 
 
-@njit(cache=True)
 def gain(a, b, xa, xb, gain_a, gain_b):
     """Return what two edges that agree tell, half of it for each of their ends."""
     d = a.length[xa] - b.length[xb]
@@ -68,7 +64,6 @@ def gain(a, b, xa, xb, gain_a, gain_b):
     return np.int64(round(0.5 * fit * UNIT))
 
 
-@njit(cache=True)
 def grow(
     a, b, views, gains, tol, most, slack, rim, alike, mates, queue, partner, probe
 ):  # fmt: skip
@@ -145,7 +140,6 @@ def grow(
     return tail, score, edges, wrong, core
 
 
-@njit(cache=True)
 def grow_all(
     a, b, views, key_a, entry_a, key_b, entry_b, row_b, gains,
     tol, most, slack, rim, alike, least, only_a, only_b, known,
