@@ -9,8 +9,12 @@ from typing import Any
 
 __all__ = ["compiled_grow_all"]
 
-INNER = ("rotate", "correspond", "lengths_agree")
-OUTER = ("slot_of", "put", "extended", "gain", "grow", "grow_all")
+FUNCTIONS = {
+    "merge.exits_kernel": ("rotate", "correspond", "lengths_agree"),
+    "merge.table_kernel": ("slot_of", "put", "extended"),
+    "merge.kernel": ("gain", "grow", "grow_all"),
+}
+"""What is compiled, each after what it calls."""
 
 
 @cache
@@ -22,14 +26,14 @@ def compiled_grow_all() -> Any:
     """
     from numba import njit
 
-    inner, outer = _copy("merge.exits_kernel"), _copy("merge.kernel")
-    for name in INNER:
-        function = njit(cache=True)(getattr(inner, name))
-        setattr(inner, name, function)
-        setattr(outer, name, function)
-    for name in OUTER:
-        setattr(outer, name, njit(cache=True)(getattr(outer, name)))
-    return vars(outer)["grow_all"]
+    ready: dict[str, Any] = {}
+    for module, names in FUNCTIONS.items():
+        copy = _copy(module)
+        vars(copy).update((k, f) for k, f in ready.items() if k in vars(copy))
+        for name in names:
+            ready[name] = njit(cache=True)(getattr(copy, name))
+            setattr(copy, name, ready[name])
+    return ready["grow_all"]
 
 
 def _copy(name: str) -> ModuleType:
