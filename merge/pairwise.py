@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from merge.chance import false_merge_probability
+from merge.chance import by_luck, false_merge_probability
 from merge.embedding import embed
 from merge.hypotheses import Hypotheses, grow_hypotheses
 from merge.layout import lay_out
@@ -121,7 +121,10 @@ def decide(
     overlays.sort(key=lambda c: (-c.score, c.residual, c.members))
     best, others = overlays[0], tuple(overlays[1:])
     trials = float(len(a) * len(b))
-    rivals = [other.score for other in others]
+    rivals = [
+        min(best.score, other.score + float(by_luck(len(other.pairs))))
+        for other in others
+    ]
     wrong = false_merge_probability(best.score, rivals, trials)
     if wrong > options.false_merge:
         reason = _why(best, others, wrong, trials, options)

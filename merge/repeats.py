@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from merge.chance import by_luck
 from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out
 from merge.makers import cut
@@ -60,8 +61,8 @@ def find_copies(
     """
     part = lay_out(cut(graph, vertices))
     found = grow_hypotheses(part, layout, replace(options, tolerate_rim=True))
-    told = found.score - math.log(len(graph)) - START
     sizes = np.diff(found.first)
+    told = found.score + by_luck(sizes) - math.log(len(graph)) - START
     group = np.repeat(np.arange(len(sizes)), sizes)
     here = np.bincount(group, vertices[found.a] == found.b, minlength=len(sizes)) > 0
     kept = (told > 0) & ~here

@@ -20,7 +20,7 @@ from merge.mazes import make_maze
 from merge.pairwise import match
 from merge.rigid import register_rigid
 
-PAIRS = 48
+PAIRS = 12
 SIGMA = 0.05
 RIGHT = 0.9
 
@@ -114,7 +114,7 @@ def test_networkx_largest_common_subgraph_with_a_limit(size):
     rng = np.random.default_rng(0)
     finished = 0
     signal.signal(signal.SIGALRM, expire)
-    for _ in range(4):
+    for _ in range(3):
         a, b, *_ = pair(rng, size, 0.3)
         matcher = nx.isomorphism.ISMAGS(plain(a), plain(b), node_match=dict.__eq__)
         signal.setitimer(signal.ITIMER_REAL, 5.0)
@@ -125,7 +125,7 @@ def test_networkx_largest_common_subgraph_with_a_limit(size):
             pass
         finally:
             signal.setitimer(signal.ITIMER_REAL, 0.0)
-    print(f"\nISMAGS, {size} vertices: finished {finished} of 4 within 5 s")
+    print(f"\nISMAGS, {size} vertices: finished {finished} of 3 within 5 s")
 
 
 def plain(graph):

@@ -110,6 +110,15 @@ def test_one_half_of_a_symmetric_building_is_refused_too():
     assert not found.accepted
 
 
+def test_luck_in_the_lengths_does_not_decide_between_equal_halves():
+    whole = double(make_maze(6, 8, np.random.default_rng(1)))
+    half = cut(whole, np.arange(len(whole) // 2))
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        found = match(perturb(whole, 0.03, rng), perturb(half, 0.03, rng))
+        assert not found.accepted, seed
+
+
 def with_door(graph, vertex):
     """Return the map after an exit was opened at a vertex."""
     exits = [graph.exits_of(v).tolist() for v in range(len(graph))]
