@@ -18,6 +18,9 @@ __all__ = ["merge", "summary"]
 
 Mapper = Callable[..., Iterable[Any]]
 
+FEW = 1000
+"""Maps of no more vertices together are matched sooner than the compiler is loaded."""
+
 
 def merge(
     maps: Annotated[list[Path], typer.Argument(metavar="MAP MAP [MAP ...]")],
@@ -65,7 +68,12 @@ def merge(
         check_page(page)
     charts = [load_map(path) for path in maps]
     began = time.perf_counter()
-    options = Options(false_merge=false_merge, doors=doors, tolerate_rim=tolerate_rim)
+    options = Options(
+        false_merge=false_merge,
+        doors=doors,
+        tolerate_rim=tolerate_rim,
+        compiled=sum(len(chart.vertices) for chart in charts) > FEW,
+    )
     with _mapper(workers, scheduler) as mapper:
         found = merge_maps(charts, options, force=force, mapper=mapper)
     elapsed = time.perf_counter() - began

@@ -20,6 +20,8 @@ MODULES = (
     "topomap.experiments.halls",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
+    "topomap.experiments.merging_fleets",
+    "topomap.experiments.merging_plans",
 )
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
 
