@@ -1,4 +1,4 @@
-"""How a robot turns by 90 degrees and squares up with a wall."""
+"""How a robot turns and squares up with a wall."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def spin(robot: Robot, angle: float) -> Control[None]:
 
 
 def turn(robot: Robot, primitive: Turn) -> Control[Outcome]:
-    """Turn by 90 degrees, and undo what the robot leaned."""
-    yield from quarter(robot, primitive.side)
+    """Turn by an angle, and undo what the robot leaned."""
+    yield from swing(robot, primitive.side.value * primitive.angle)
     robot.begin_leg()
     yield from settle(robot)
     return Outcome(0.0, Reason.DONE, robot.readings())
@@ -45,11 +45,16 @@ def turn(robot: Robot, primitive: Turn) -> Control[Outcome]:
 
 def quarter(robot: Robot, side: Side) -> Control[None]:
     """Turn to the axis on one side of the present one."""
-    angle = side.value * math.pi / 2
+    yield from swing(robot, side.value * math.pi / 2)
+
+
+def swing(robot: Robot, angle: float) -> Control[None]:
+    """Turn to an axis at an angle to the present one."""
     yield from stop(robot)
     yield from spin(robot, angle - robot.lean)
     robot.lean -= angle
-    robot.lean_variance += robot.profile.turn_error**2 + 1e-6
+    quarters = angle / (math.pi / 2)
+    robot.lean_variance += (robot.profile.turn_error * quarters) ** 2 + 1e-6
     robot.begin_spin()
 
 
