@@ -127,10 +127,11 @@ class _Ways:
     """A map by its exits: where each exit of each vertex leads."""
 
     def __init__(self, chart: TopologicalMap) -> None:
-        self.edges = len(chart.edges)
+        edges = [edge for edge in chart.edges if not edge.is_incursion]
+        self.edges = len(edges)
         self.vertices = {vertex.id: vertex for vertex in chart.vertices}
         self.leads: dict[int, list[tuple[float, int]]] = {v: [] for v in self.vertices}
-        for edge in chart.edges:
+        for edge in edges:
             self.leads[edge.source].append((edge.source_exit, edge.target))
             self.leads[edge.target].append((edge.target_exit, edge.source))
 

@@ -59,6 +59,10 @@ class EdgeRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True)
     lengths: list[LengthRecord]
     clearance: Number | None = None
     shift: Number = 0.0
+    kind: Literal["base", "island", "passive", "active"] = "base"
+    sureness: Number = 1.0
+    reach: Number | None = None
+    widths: list[tuple[Number, Number]] = []
 
 
 class MapRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True):
@@ -101,6 +105,10 @@ def to_record(chart: TopologicalMap) -> MapRecord:
                 [LengthRecord(length.value, length.sigma) for length in edge.lengths],
                 edge.clearance,
                 edge.shift,
+                edge.kind,
+                edge.sureness,
+                edge.reach,
+                list(edge.widths),
             )
             for edge in chart.edges
         ],
@@ -138,6 +146,10 @@ def from_record(record: MapRecord) -> TopologicalMap:
                 edge.behaviour,
                 edge.shift,
                 edge.clearance,
+                edge.kind,
+                edge.sureness,
+                edge.reach,
+                tuple(edge.widths),
             )
             for edge in record.edges
         ),
