@@ -1,0 +1,158 @@
+"""Known space: the union of all that the robot's sensors have swept."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from behaviours.port import Swept
+    from topomap.incursions.layout import Layout
+
+__all__ = ["free_space", "known_space", "swept_along", "wall_polygons"]
+
+LEAST_WIDTH = 0.01
+"""Pieces narrower than this, in metres, show nothing."""
+
+
+def known_space(
+    layout: Layout, swept: Iterable[shapely.Geometry] = ()
+) -> shapely.Geometry:
+    """Find what the sensors swept while the walls were followed, and besides.
+
+    Parameters
+    ----------
+    layout : Layout
+        Its edges' clearance profiles tell how far the robot saw to its left.
+    swept : iterable of shapely.Geometry
+        What was swept on other ways, from `swept_along`.
+
+    Returns
+    -------
+    shapely.Geometry
+        A polygon or several, in the map's frame; empty if nothing is known.
+
+    Notes
+    -----
+    Along each wall the strip from the wall to the least range seen opposite is
+    known, piece by piece: [K] 3.6.2 keeps one range for each wall. Around each
+    vertex a square of r0 is: open space is wider than two r0. The positions are
+    those of the map; how unsure they are is for the user of the space to count in,
+    as `passive_incursions` does.
+
+    Examples
+    --------
+    >>> from behaviours.parameters import Parameters
+    >>> from topomap.incursions.layout import lay_out
+    >>> from topomap.truth import true_map
+    >>> room = true_map([(0, 0), (4, 0), (4, 3), (0, 3)], Parameters(r0=0.3))
+    >>> round(known_space(lay_out(room)).area, 2)  # no profiles: corners only
+    1.44
+    """
+    strips = [_strip(layout, w) for w in range(len(layout.edges))]
+    r0 = layout.parameters.r0
+    corners = [shapely.box(x - r0, y - r0, x + r0, y + r0) for x, y in layout.positions]
+    found = shapely.union_all([*filter(None, strips), *corners, *swept])
+    # Pieces that touch are joined, and slits of rounding closed.
+    joined: shapely.Geometry = found.buffer(1e-6, join_style="mitre")
+    return joined
+
+
+def _strip(layout: Layout, w: int) -> shapely.Polygon | None:
+    """Return what was swept along one wall."""
+    edge = layout.edges[w]
+    if not edge.widths:
+        return None
+    r0, scale = layout.parameters.r0, layout.lengths[w] / edge.widths[-1][0]
+    left: list[tuple[float, float]] = []
+    start = 0.0
+    for until, width in edge.widths:
+        end = until * scale
+        left += [(start, width), (end, width)]
+        start = end
+    outline = [(0.0, -r0), (start, -r0), *reversed(left)]
+    return _placed(outline, layout.positions[layout.ends[w, 0]], layout.along[w])
+
+
+def swept_along(
+    origin: NDArray[np.float64],
+    direction: float,
+    swept: Iterable[Swept],
+    scale: float,
+    farthest: float,
+) -> shapely.Geometry:
+    """Return what was swept on a straight way.
+
+    Parameters
+    ----------
+    origin : ndarray, shape (2,)
+        Where the way begins in the map's frame, in metres.
+    direction : float
+        Of the way, in radians.
+    swept : iterable of Swept
+        What the sides saw.
+    scale : float
+        Metres of the map for a metre of the odometer.
+    farthest : float
+        What lies farther to the side is not counted, in metres.
+    """
+    ahead = np.array([math.cos(direction), math.sin(direction)])
+    boxes = []
+    start = 0.0
+    for piece in swept:
+        end = piece.until * scale
+        left, right = min(piece.left, farthest), min(piece.right, farthest)
+        if left + right > LEAST_WIDTH and end > start:
+            outline = [(start, -right), (end, -right), (end, left), (start, left)]
+            boxes.append(_placed(outline, origin, ahead))
+        start = end
+    found: shapely.Geometry = shapely.union_all(boxes)
+    return found
+
+
+def _placed(
+    outline: list[tuple[float, float]],
+    origin: NDArray[np.float64],
+    ahead: NDArray[np.float64],
+) -> shapely.Polygon:
+    points = np.array(outline)
+    left = np.array([-ahead[1], ahead[0]])
+    return shapely.Polygon(origin + points[:, :1] * ahead + points[:, 1:] * left)
+
+
+def wall_polygons(layout: Layout) -> list[tuple[shapely.Polygon, bool]]:
+    """Return the outline of each closed loop of walls, and whether it is an island.
+
+    An island's outline is walked clockwise, with free space on the left.
+    """
+    found = []
+    for loop in layout.loops:
+        corners = layout.segments[list(loop), :2]
+        x, y = corners.T
+        is_island = float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) < 0
+        polygon = shapely.Polygon(corners)
+        found.append((polygon if polygon.is_valid else polygon.buffer(0), is_island))
+    return found
+
+
+def free_space(layout: Layout) -> shapely.Geometry | None:
+    """Return what lies inside the outer walls and outside all known islands.
+
+    None while the map has no outer walls: then nobody knows how far space goes.
+    """
+    outlines = wall_polygons(layout)
+    outer = [polygon for polygon, is_island in outlines if not is_island]
+    if not outer:
+        return None
+    islands = [polygon for polygon, is_island in outlines if is_island]
+    found: shapely.Geometry = shapely.union_all(outer).difference(
+        shapely.union_all(islands)
+    )
+    return found

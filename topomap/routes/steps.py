@@ -1,0 +1,280 @@
+"""How a robot takes one edge of a map, and what it finds at its end."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from behaviours.follow_wall import follow_wall
+from behaviours.mirror import mirrored
+from behaviours.port import Side
+from behaviours.vertices import VertexType
+from topomap.incursions.crossing import axis_near, cross, face, square_up
+from topomap.topological_map import same_direction
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from behaviours.follow_wall import Leg
+    from behaviours.parameters import Parameters
+    from behaviours.port import Behaviour
+    from topomap.incursions.crossing import Crossing
+    from topomap.incursions.errors import Drift
+    from topomap.topological_map import Edge
+
+__all__ = [
+    "Arrival",
+    "follow_on",
+    "land",
+    "next_direction",
+    "tries_at",
+    "walk_wall",
+]
+
+RIGHT_ANGLE = math.pi / 2
+JOGS = 4
+"""A wall may have so many corners that the map does not know."""
+SLIP = 0.05
+"""Deviation of where a robot stands at a corner, in metres."""
+
+
+@dataclass(frozen=True, eq=False)
+class Arrival:
+    """Where a robot came to, by its own reckoning."""
+
+    corner: VertexType | None
+    """At what kind of corner it stands; None where it met no wall."""
+    heading: float
+    """In radians in the map's frame."""
+    side: Side
+    """Where the wall is that it followed."""
+    way: NDArray[np.float64]
+    """Shape (2,): from where it set out, in metres in the map's frame."""
+    spread: NDArray[np.float64]
+    """Shape (2, 2): covariance of the way, in square metres."""
+    length: float
+    """Of the way along the last wall, in metres."""
+    leg: Leg | None = None
+    """The last wall, as it was followed."""
+    crossing: Crossing | None = None
+    """How it crossed open space, if it did."""
+
+    @property
+    def shift(self) -> float:
+        """How far it moved away from the wall on its right as it followed, in metres."""
+        return self.leg.shift if self.leg else 0.0
+
+
+def follow_on(
+    parameters: Parameters,
+    corner: VertexType | None,
+    heading: float,
+    exit_: float,
+    side: Side,
+    sigma: float,
+) -> Behaviour[Arrival]:
+    """Follow a wall from a corner to the next one, the wall on either side.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The lengths the robot keeps.
+    corner : VertexType or None
+        Where it stands: INT, EXT, or None for beside the wall.
+    heading : float
+        Of the robot, in radians in the map's frame.
+    exit_ : float
+        The direction in which the wall runs on.
+    side : Side
+        Where the wall then is.
+    sigma : float
+        Standard deviation of a length, as a part of the length.
+
+    Returns
+    -------
+    Behaviour
+        Returns the `Arrival` at the next corner.
+    """
+    bend = {VertexType.INT: RIGHT_ANGLE, VertexType.EXT: -RIGHT_ANGLE}
+    turn = 0.0 if corner is None else bend[corner]
+    is_left = side is Side.LEFT
+    heading = yield from face(heading, exit_ + turn if is_left else exit_ - turn)
+    behaviour = follow_wall(parameters, corner)
+    leg = yield from (mirrored(behaviour) if is_left else behaviour)
+    along = np.array([math.cos(exit_), math.sin(exit_)])
+    left = np.array([-along[1], along[0]])
+    shift = -leg.shift if is_left else leg.shift
+    spread = (sigma * leg.length) ** 2 * np.outer(along, along) + SLIP**2 * np.eye(2)
+    way = leg.length * along + shift * left
+    return Arrival(leg.corner, exit_, side, way, spread, leg.length, leg)
+
+
+def walk_wall(
+    parameters: Parameters,
+    corner: VertexType,
+    heading: float,
+    edge: Edge,
+    end: VertexType,
+    is_forward: bool,
+    sigma: float,
+) -> Behaviour[tuple[Arrival, bool]]:
+    """Take an edge along a wall, from its source or back from its target.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The lengths the robot keeps.
+    corner, end : VertexType
+        Where the robot stands, and what it should come to.
+    heading : float
+        Of the robot, in radians in the map's frame.
+    edge : Edge
+        Followed with the wall on the right from source to target, with the wall on
+        the left on the way back.
+    is_forward : bool
+        Whether from source to target.
+    sigma : float
+        Standard deviation of a length, as a part of the length.
+
+    Returns
+    -------
+    Behaviour
+        Returns the `Arrival` and whether it is as the map says.
+
+    Notes
+    -----
+    What recedes a little on the way there juts out on the way back, and may then be
+    a pair of corners that the map does not have: the robot follows round them.
+    """
+    exit_ = edge.source_exit if is_forward else edge.target_exit
+    side = Side.RIGHT if is_forward else Side.LEFT
+    expected = edge.fused
+    room = 3.3 * math.hypot(sigma * expected.value, expected.sigma) + parameters.r0 / 2
+    ahead = np.array([math.cos(exit_), math.sin(exit_)])
+    way, spread = np.zeros(2), np.zeros((2, 2))
+    arrival = yield from follow_on(parameters, corner, heading, exit_, side, sigma)
+    for _ in range(JOGS):
+        way, spread = way + arrival.way, spread + arrival.spread
+        arrival = replace(arrival, way=way, spread=spread)
+        rest = expected.value - float(way @ ahead)
+        is_straight = same_direction(arrival.heading, exit_)
+        if abs(rest) <= room and is_straight and arrival.corner is end:
+            return arrival, True
+        if rest < -room or arrival.corner not in (VertexType.INT, VertexType.EXT):
+            break
+        along = next_direction(arrival)
+        is_astray = abs(float(way @ [-ahead[1], ahead[0]])) > parameters.r0
+        if is_astray or (is_straight and abs(rest) <= room):
+            break
+        arrival = yield from follow_on(
+            parameters, arrival.corner, arrival.heading, along, side, sigma
+        )
+    return arrival, False
+
+
+def next_direction(arrival: Arrival) -> float:
+    """Return where the wall runs on from the corner that a robot came to."""
+    turn = RIGHT_ANGLE if arrival.corner is VertexType.INT else -RIGHT_ANGLE
+    return arrival.heading + (turn if arrival.side is Side.RIGHT else -turn)
+
+
+def tries_at(phi: float, readings_left: float, readings_right: float, r0: float) -> list[tuple[float, Side]]:
+    """Return how a robot that met an unknown wall can stand with it on its right.
+
+    Parameters
+    ----------
+    phi : float
+        Its heading, in radians in the map's frame.
+    readings_left, readings_right : float
+        What its sides see, in metres.
+    r0 : float
+        The robot's offset, in metres.
+
+    Returns
+    -------
+    list of (heading, side)
+        The wall ahead first, unless a wall is seen close on the side to which the
+        heading leans.
+    """
+    ahead = axis_near(phi)
+    slant = math.remainder(phi - ahead, math.tau)
+    aside = ahead + math.copysign(RIGHT_ANGLE, slant)
+    tries = [(ahead + RIGHT_ANGLE, Side.RIGHT), (aside + RIGHT_ANGLE, Side.RIGHT)]
+    near = readings_left if slant > 0 else readings_right
+    return tries[::-1] if near < 1.2 * r0 else tries
+
+
+def land(
+    parameters: Parameters,
+    heading: float,
+    phi: float,
+    reach: float,
+    drift: Drift,
+    expected: tuple[float, Side] | None,
+    least: float,
+) -> Behaviour[Arrival]:
+    """Cross open space, and follow the wall that is met to its corner.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The lengths the robot keeps.
+    heading : float
+        Of the robot, in radians in the map's frame.
+    phi : float
+        Where to cross to, in radians in the map's frame.
+    reach : float
+        How far the wall is thought to be, in metres.
+    drift : Drift
+        Errors of the robot.
+    expected : (heading, side) or None
+        How to follow the wall that is thought to be there.
+    least : float
+        A wall met before so many metres by the odometer is another one: it is
+        followed with the wall on the right.
+
+    Returns
+    -------
+    Behaviour
+        Returns the `Arrival` at a corner; its corner is None where no wall was
+        found beside the robot.
+    """
+    yield from face(heading, phi)
+    slant = 0.0
+    if expected is not None:
+        along, side = expected
+        normal = along + (-RIGHT_ANGLE if side is Side.RIGHT else RIGHT_ANGLE)
+        slant = math.remainder(phi - normal, math.tau)
+        if abs(slant) > RIGHT_ANGLE:
+            slant = 0.0
+    crossing = yield from cross(parameters, reach, slant)
+    seen = crossing.readings
+    tries = tries_at(phi, seen.left, seen.right, parameters.r0)
+    if expected is not None and crossing.distance >= least:
+        tries = [expected, *tries]
+    squared = yield from square_up(parameters, phi, tries)
+    ahead = np.array([math.cos(phi), math.sin(phi)])
+    aside = np.array([-ahead[1], ahead[0]])
+    turned = abs(math.remainder(phi - heading, math.tau))
+    own = drift.aside(crossing.distance, turned)
+    spread = (drift.sigma * crossing.distance) ** 2 * np.outer(ahead, ahead)
+    spread = spread + own**2 * np.outer(aside, aside) + SLIP**2 * np.eye(2)
+    way = crossing.distance * ahead
+    if squared is None:
+        return Arrival(None, phi, Side.RIGHT, way, spread, 0.0, None, crossing)
+    along_ = np.array([math.cos(squared.heading), math.sin(squared.heading)])
+    left = np.array([-along_[1], along_[0]])
+    way = way + squared.shift * left + squared.advance * along_
+    last = yield from follow_on(
+        parameters, None, squared.heading, squared.heading, squared.side, drift.sigma
+    )
+    return replace(
+        last,
+        way=way + last.way,
+        spread=spread + last.spread,
+        length=last.length + squared.advance,
+        crossing=crossing,
+    )
