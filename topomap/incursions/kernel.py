@@ -185,3 +185,48 @@ def segment_distance(x0, y0, x1, y1, ax, ay, bx, by, keep, grow):  # type: ignor
         gap = hypot(px - ax - s * vx, py - ay - s * vy)
         room = min(room, gap - keep - grow * t)
     return room
+
+
+@njit(cache=True)
+def shoot(positions, segments, ends, along, spots, keep):  # type: ignore[no-untyped-def]  # pragma: no cover
+    """Return for each spot and vertex the wall met beyond it, the direction, the way.
+
+    The wall is -1 where another wall is in the way before the spot, or nearer than
+    `keep` to the way but at its end.
+    """
+    found = np.full((len(spots), len(positions), 3), -1.0)
+    for n in range(len(spots)):
+        for i in range(len(positions)):
+            x, y = positions[i]
+            dx, dy = spots[n, 0] - x, spots[n, 1] - y
+            span = hypot(dx, dy)
+            if span < 1e-6:
+                continue
+            ux, uy = dx / span, dy / span
+            best, hit = inf, -1
+            for w in range(len(segments)):
+                ax, ay, bx, by = segments[w]
+                vx, vy = bx - ax, by - ay
+                cross = ux * vy - uy * vx
+                if abs(cross) < 1e-12:
+                    continue
+                t = ((ax - x) * vy - (ay - y) * vx) / cross
+                s = ((ax - x) * uy - (ay - y) * ux) / cross
+                if 0.0 <= s <= 1.0 and 0.0 < t < best:
+                    best, hit = t, w
+            if hit < 0 or best <= span:
+                continue
+            # Into the wall from its free side, and not too steeply along it.
+            facing = -(-along[hit, 1] * ux + along[hit, 0] * uy)
+            if facing < 0.2:
+                continue
+            reach = best - keep / facing
+            if reach < span * 0.5 or reach < 0.3:
+                continue
+            if _is_blocked(
+                x, y, x + ux * reach, y + uy * reach,
+                segments, ends, i, hit, keep, keep, 0.0,
+            ):
+                continue
+            found[n, i, 0], found[n, i, 1], found[n, i, 2] = hit, atan2(uy, ux), reach
+    return found

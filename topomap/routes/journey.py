@@ -98,22 +98,50 @@ class Journey:
         if sure:
             self.vertex, self.heading = step.target, arrival.heading
             return Outcome(True, arrival, None)
+        found = yield from self._locate(origin, phi, arrival, foretold)
+        if isinstance(found, NewLoop):
+            detail = f"a loop of {found.walk.period} walls"
+            self.events.append(Event(str(step), "island", detail))
+            return Outcome(False, arrival, found)
+        is_there = self.vertex == step.target and found.walls == 1
+        if not is_there:
+            detail = f"vertex {self.vertex} after {found.walls} walls"
+            self.events.append(Event(str(step), "elsewhere", detail))
+        return Outcome(is_there, arrival, None)
+
+    def probe(self, phi: float) -> Behaviour[Outcome]:
+        """Go straight into the unknown, until a wall is met that is then explored.
+
+        `phi` is the direction, in radians in the map's frame.
+
+        Raises
+        ------
+        JobError
+            From the running coroutine, where the robot is stuck, or lost.
+        """
+        layout = self.layout
+        origin = layout.index[self.vertex]
+        arrival = yield from land(
+            layout.parameters, self.heading, phi, 0.0, self.drift, None, 0.0
+        )
+        found = yield from self._locate(origin, phi, arrival, None)
+        return Outcome(False, arrival, found if isinstance(found, NewLoop) else None)
+
+    def _locate(
+        self, origin: int, phi: float, arrival: Arrival, foretold: int | None
+    ) -> Behaviour[Found | NewLoop]:
+        """Find out where the robot is; a new loop comes into the map."""
+        layout = self.layout
         found = yield from locate(
             layout, origin, arrival, foretold, self.drift, self.make_closer
         )
+        self.heading = found.heading
         if isinstance(found, Found):
             self.vertex = layout.chart.vertices[found.vertex].id
-            self.heading = found.heading
-            detail = f"vertex {self.vertex} after {found.walls} walls"
-            is_there = self.vertex == step.target and found.walls == 1
-            if not is_there:
-                self.events.append(Event(str(step), "elsewhere", detail))
-            return Outcome(is_there, arrival, None)
-        self.chart, self.vertex = add_loop(layout, origin, phi, found, self.drift.sigma)
-        self.heading = found.heading
-        detail = f"a loop of {found.walk.period} walls"
-        self.events.append(Event(str(step), "island", detail))
-        return Outcome(False, arrival, found)
+        else:
+            sigma = self.drift.sigma
+            self.chart, self.vertex = add_loop(layout, origin, phi, found, sigma)
+        return found
 
     def go_to(self, target: int, cost: str = "metres") -> Behaviour[list[Route]]:
         """Go to a vertex by the cheapest route, planning anew when need be.
