@@ -69,7 +69,9 @@ def _primitive(primitive: Primitive) -> Primitive:
         case Turn() | Align() | Follow():
             return replace(primitive, side=primitive.side.opposite)
         case Approach():
-            return replace(primitive, sensors=tuple(map(OTHER.get, primitive.sensors)))
+            return replace(
+                primitive, sensors=tuple(OTHER[s] for s in primitive.sensors)
+            )
         case _:
             return primitive
 

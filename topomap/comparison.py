@@ -12,7 +12,7 @@ from merge.rigid import AmbiguousRotationError, RigidTransform, register_rigid
 from topomap.embedding import embedded
 from topomap.topological_map import TopologicalMap, Vertex, same_direction
 
-__all__ = ["Comparison", "compare_maps"]
+__all__ = ["Comparison", "best_motion", "compare_maps", "isomorphisms"]
 
 TOLERANCE = math.radians(10)
 """Exits that differ by less, after the maps are turned, can be the same."""
@@ -92,6 +92,53 @@ def compare_maps(
         raise ValueError("nothing to compare with: give at least one reference map")
     found = [_compare(chart, reference, tolerance) for reference in references]
     return min(found, key=_rank)
+
+
+def isomorphisms(
+    chart: TopologicalMap,
+    reference: TopologicalMap,
+    rotation: float | None = None,
+    tolerance: float = TOLERANCE,
+) -> list[dict[int, int]]:
+    """Return all ways in which two connected maps are the same, as matched ids.
+
+    Parameters
+    ----------
+    chart, reference : TopologicalMap
+        Compared by types, exits and edges.
+    rotation : float, optional
+        Only those that turn the map by so much, in radians.
+    tolerance : float
+        By how much exits, and the rotation, may differ, in radians.
+
+    Returns
+    -------
+    list of dict of int to int
+        Vertex ids of the map to those of the reference.
+    """
+    a, b = _Ways(chart), _Ways(reference)
+    return [
+        pairs
+        for pairs in _isomorphisms(a, b, tolerance)
+        if rotation is None or _turns_by(a, b, pairs, rotation, tolerance)
+    ]
+
+
+def best_motion(
+    pairs: dict[int, int], chart: TopologicalMap, reference: TopologicalMap
+) -> tuple[RigidTransform, float]:
+    """Return the motion that lays matched vertices nearest, and the rmse left."""
+    return _best_motion(pairs, _places(chart), _places(reference))
+
+
+def _turns_by(
+    a: _Ways, b: _Ways, pairs: dict[int, int], rotation: float, tolerance: float
+) -> bool:
+    """Tell whether all matched vertices agree when turned by a rotation."""
+    return all(
+        _agree(a.vertices[i], b.vertices[j], rotation, tolerance)
+        for i, j in pairs.items()
+    )
 
 
 def _rank(found: Comparison) -> tuple[bool, int, float]:

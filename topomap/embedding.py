@@ -253,7 +253,8 @@ def _crossing(
         (along, scale * rest),
     ):
         spread = spread + sigma**2 * np.outer(direction, direction)
-    return reach * ahead + rest * along + edge.shift * left, np.linalg.inv(spread)
+    stiffness = np.asarray(np.linalg.inv(spread), dtype=np.float64)
+    return reach * ahead + rest * along + edge.shift * left, stiffness
 
 
 def _parts(

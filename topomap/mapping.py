@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from behaviours.port import run
-from topomap.bodies import body_parameters, make_body
+from topomap.bodies import body_drift, body_parameters, make_body
 from topomap.boundary import map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.errors import InputError, JobError
 from topomap.folding import fold
+from topomap.incursions.improving import IMPROVEMENTS, Improvement, improve_map
+from topomap.parts import compare_wholes, in_one
 from topomap.truth import true_maps
 from worlds.fit import check_fit
 from worlds.starts import check_start, choose_start
@@ -42,11 +44,11 @@ class Build:
     """A map that a robot built, and what it took."""
 
     map: TopologicalMap
-    """Of the closed loop; of the open walk where no closure was found."""
+    """Of the closed loop, improved; of the open walk where no closure was found."""
     closed: bool
     """Whether the robot decided that it had come round."""
     comparison: Comparison
-    """With the world's truth."""
+    """With the world's truth: of one loop; of all loops with active incursions."""
     walk: Walk
     """Every wall walked, and what was made of it."""
     start: Pose
@@ -57,6 +59,8 @@ class Build:
     """Time in the robot's world, in seconds."""
     collisions: int
     """How often the body began to touch something."""
+    improvement: Improvement | None = None
+    """What was done to the base map; None where its loop stayed open."""
 
     @property
     def correct(self) -> bool:
@@ -85,6 +89,7 @@ def build_map(
     parameters: Parameters | None = None,
     closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
+    improve: str = "none",
 ) -> Build:
     """Set a robot down in a world and let it map the boundary it first meets.
 
@@ -108,6 +113,9 @@ def build_map(
         `topomap.closers.CLOSINGS`.
     max_walls : int
         The loop is given up as open after so many walls.
+    improve : {"none", "passive", "active"}
+        What is done to the closed base map: incursions through space that was seen,
+        or driven ones too, which find the islands; see `topomap.incursions`.
 
     Returns
     -------
@@ -141,6 +149,8 @@ def build_map(
     """
     if not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
         raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
+    if improve not in IMPROVEMENTS:
+        raise InputError("", "improve", improve, f"one of {', '.join(IMPROVEMENTS)}")
     if max_walls < 1:
         raise InputError("", "max_walls", max_walls, "a number of at least 1")
     start_rng, body_rng = rng.spawn(2)
@@ -158,13 +168,29 @@ def build_map(
     except UnforeseenError as error:
         raise JobError(str(error)) from error
     chart = fold(walk, parameters, sigma)
+    improvement = None
+    if walk.period is not None:
+        name = closing if isinstance(closing, str) else "likelihood"
+        improvement = improve_map(
+            chart,
+            improve,
+            body_drift(body, sigma),
+            body=robot,
+            vertex=len(walk.legs) % walk.period,
+            make_closer=lambda: make_closer(name, sigma, parameters),
+        )
+        chart = improvement.map
+    truth = true_maps(world, parameters)
     return Build(
         chart,
         walk.period is not None,
-        compare_maps(chart, *true_maps(world, parameters)),
+        compare_wholes(chart, in_one(truth))
+        if improve == "active"
+        else compare_maps(chart, *truth),
         walk,
         start,
         robot.travelled,
         robot.clock,
         robot.collisions,
+        improvement,
     )

@@ -8,6 +8,7 @@ matters, and the least of what is left counts.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -82,7 +83,7 @@ class Oblique:
                 self.least_beside(Side.LEFT, start, end),
                 self.least_beside(Side.RIGHT, start, end),
             )
-            for start, end in zip(places, places[1:], strict=False)
+            for start, end in pairwise(places)
         )
 
     def readings(self, half_width: float) -> Readings:

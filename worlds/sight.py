@@ -75,9 +75,7 @@ class Look:
         """Return the least range to one side over the next `way` metres."""
         return float(_least_beside(self._beside, u, v, _sign(side), way))
 
-    def swept(
-        self, u: float, v: float, way: float, scale: float
-    ) -> tuple[Swept, ...]:
+    def swept(self, u: float, v: float, way: float, scale: float) -> tuple[Swept, ...]:
         """Return what the sides see on a way ahead, told in lengths times `scale`."""
         rows = _pieces(self._beside, u, v, way, scale, PIECE)
         return tuple(map(Swept._make, rows.tolist()))

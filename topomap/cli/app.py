@@ -13,6 +13,7 @@ from topomap.cli.demo import demo
 from topomap.cli.explore_grid import explore_grid
 from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
+from topomap.cli.route import route
 from topomap.cli.show import show
 from topomap.cli.world import app as world
 
@@ -28,6 +29,7 @@ app.command()(demo)
 app.add_typer(world, name="world")
 app.command()(build)
 app.command()(compare)
+app.command()(route)
 app.command()(merge)
 app.command()(show)
 app.command()(allocate)

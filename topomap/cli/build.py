@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -32,6 +33,9 @@ def build(
     closing: Annotated[
         str, typer.Option(help="What decides that the loop is closed.")
     ] = "likelihood",
+    improve: Annotated[
+        str, typer.Option(help="Add incursions: none, passive or active.")
+    ] = "none",
     max_walls: Annotated[
         int, typer.Option(help="Give the loop up as open after so many walls.")
     ] = 5000,
@@ -72,6 +76,7 @@ def build(
             start=None if start is None else _pose(start),
             closing=closer,
             max_walls=max_walls,
+            improve=improve,
         )
     elapsed = time.perf_counter() - began
     if plot is not None:
@@ -87,17 +92,27 @@ def build(
         )
     if not as_json:
         say(_sentence(built, output))
+    if built.improvement is not None and built.improvement.failure:
+        raise JobError(
+            "the map was not improved to the end, and is saved as far as it went: "
+            f"{built.improvement.failure}"
+        )
 
 
 def summary(built: Build, elapsed: float) -> dict[str, Any]:
     """Return what `build --json` prints."""
     rmse = built.comparison.position_rmse
+    better = built.improvement
+    kinds = Counter(edge.kind for edge in built.map.edges)
     return {
         "closed": built.closed,
         "correct": built.correct,
         "vertices": len(built.map.vertices),
         "edges": len(built.map.edges),
-        "islands": 0,
+        "islands": better.islands if better else 0,
+        "passive_incursions": kinds["passive"],
+        "active_incursions": kinds["active"],
+        "improving_m": round(better.travelled, 3) if better else 0.0,
         "unexplored_exits": built.map.unexplored_exits,
         "travelled_m": round(built.travelled, 3),
         "simulated_s": round(built.simulated, 3),
@@ -140,6 +155,6 @@ def _sentence(built: Build, output: Path) -> str:
     verdict = "correct" if built.correct else "WRONG"
     return (
         f"{output}: {len(built.map.vertices)} vertices, closed after "
-        f"{len(built.walk.legs)} walls and {built.travelled:.1f} m; {verdict} against "
-        f"the world's truth"
+        f"{len(built.walk.legs)} walls, {built.travelled:.1f} m in all; {verdict} "
+        f"against the world's truth"
     )

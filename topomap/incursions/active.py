@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 import shapely
+from shapely.affinity import translate
 
+from topomap.embedding import embedded
 from topomap.folding import FARTHEST
 from topomap.incursions.candidates import Options, candidates, edge_of
 from topomap.incursions.known_space import free_space, known_space, swept_along
-from topomap.incursions.passive import add_passive, is_swept
+from topomap.incursions.layout import Layout, lay_out
+from topomap.incursions.passive import is_swept, with_passive
 from topomap.incursions.search import outward
 from topomap.incursions.targets import (
     SIGHT,
@@ -22,19 +25,18 @@ from topomap.incursions.targets import (
 )
 from topomap.incursions.tour import plan_tour
 from topomap.routes.costs import all_distances
-from topomap.routes.planning import Step
+from topomap.routes.planning import NoWayError, Step
 from topomap.topological_map import Edge, Length
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from behaviours.port import Behaviour, Swept
+    from behaviours.port import Behaviour
     from topomap.incursions.candidates import Candidate
-    from topomap.incursions.layout import Layout
     from topomap.routes.journey import Journey, Outcome
     from topomap.topological_map import TopologicalMap
 
-__all__ = ["Crossed", "Exploration", "explore_space", "geometry_of"]
+__all__ = ["Crossed", "Exploration", "explore_space", "finished", "geometry_of"]
 
 MOST_PLANS = 60
 """So often the rest is planned anew."""
@@ -52,10 +54,8 @@ class Crossed(NamedTuple):
     """Id of the vertex where it began."""
     direction: float
     """In radians in the map's frame."""
-    scale: float
-    """Metres of the map for a metre of the odometer."""
-    swept: tuple[Swept, ...]
-    """What its sides saw."""
+    shape: shapely.Geometry
+    """What its sides swept, in metres from where it began."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,18 +114,21 @@ def explore_space(
                 islands += outcome.loop is not None
                 continue
         tasks, space = _tasks(journey, options, crossed, tried, given_up)
-        if not tasks:
-            break
+        is_idle = True
         for task, proves in tasks:
             if _is_needless(journey.layout, task, proves, space):
                 continue
-            yield from journey.go_to(task.source)
-            if journey.vertex != task.source:
+            try:
+                yield from journey.go_to(task.source)
+            except NoWayError:
+                is_idle = False
                 break
             tried.add((task.source, round(math.degrees(task.source_exit))))
             layout = journey.layout
             outcome = yield from journey.take(Step(task, True))
-            crossed.append(_crossed(task, outcome))
+            reach = (task.reach or 0.0) if outcome.as_foretold else 0.0
+            crossed.append(_crossed(task.source, task.source_exit, outcome, reach))
+            is_idle = False
             if outcome.as_foretold:
                 _keep(journey, task, outcome)
                 space = space.union(geometry_of(layout, crossed[-1:])[0])
@@ -133,7 +136,9 @@ def explore_space(
             dropped += not outcome.as_foretold
             if not outcome.as_foretold:
                 break
-    chart = _finished(journey, options, crossed)
+        if is_idle:
+            break
+    chart = finished(journey.chart, options, crossed)
     return Exploration(chart, tuple(crossed), islands, dropped, len(given_up))
 
 
@@ -149,21 +154,14 @@ def _probe(
     tried.add((vertex, round(math.degrees(phi))))
     yield from journey.go_to(vertex)
     outcome = yield from journey.probe(phi)
-    if outcome.arrival.crossing is not None:
-        crossed.append(Crossed(vertex, phi, 1.0, outcome.arrival.crossing.swept))
+    crossed.append(_crossed(vertex, phi, outcome, 0.0))
     return outcome
 
 
 def geometry_of(layout: Layout, crossed: list[Crossed]) -> list[shapely.Geometry]:
     """Return what was swept on the ways across, in the map's frame."""
     return [
-        swept_along(
-            layout.positions[layout.index[way.source]],
-            way.direction,
-            way.swept,
-            way.scale,
-            FARTHEST,
-        )
+        translate(way.shape, *layout.positions[layout.index[way.source]])
         for way in crossed
         if way.source in layout.index
     ]
@@ -182,11 +180,11 @@ def _tasks(
     """
     layout = journey.layout
     swept = geometry_of(layout, crossed)
-    journey.chart = add_passive(journey.chart, options, swept)
-    layout = journey.layout
+    space = known_space(layout, swept)
+    journey.chart = with_passive(layout, space, options)
+    layout = replace(layout, chart=journey.chart)
     distances = all_distances(journey.chart)
     here = layout.index[journey.vertex]
-    space = known_space(layout, swept)
     ids = [vertex.id for vertex in layout.chart.vertices]
 
     def is_new(c: Candidate) -> bool:
@@ -257,13 +255,13 @@ def _is_needless(
     return bool(hidden.area < LEAST_AREA)
 
 
-def _crossed(task: Edge, outcome: Outcome) -> Crossed:
+def _crossed(source: int, phi: float, outcome: Outcome, reach: float) -> Crossed:
+    """Return what was swept on a way; `reach` is its length, 0 where unknown."""
     crossing = outcome.arrival.crossing
     if crossing is None:
-        return Crossed(task.source, task.source_exit, 1.0, ())
-    reach = task.reach or 0.0
-    scale = reach / max(crossing.distance, CRUMB) if outcome.as_foretold else 1.0
-    return Crossed(task.source, task.source_exit, scale, crossing.swept)
+        return Crossed(source, phi, shapely.Polygon())
+    scale = reach / max(crossing.distance, CRUMB) if reach else 1.0
+    return Crossed(source, phi, swept_along(phi, crossing.swept, scale, FARTHEST))
 
 
 def _keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
@@ -285,12 +283,10 @@ def _keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
     journey.chart = replace(journey.chart, edges=(*journey.chart.edges, edge))
 
 
-def _finished(
-    journey: Journey, options: Options, crossed: list[Crossed]
+def finished(
+    chart: TopologicalMap, options: Options, crossed: list[Crossed]
 ) -> TopologicalMap:
-    """Return the map, placed by all that was measured, with its passive incursions."""
-    from topomap.embedding import embedded
-    from topomap.incursions.layout import lay_out
-
-    layout = lay_out(embedded(journey.chart))
-    return add_passive(layout.chart, options, geometry_of(layout, crossed))
+    """Return a map placed by all that was measured, with its passive incursions."""
+    layout = lay_out(embedded(chart))
+    space = known_space(layout, geometry_of(layout, crossed))
+    return with_passive(layout, space, options)

@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 __all__ = ["Candidate", "Options", "candidates", "edge_of", "landing_limits"]
 
 
+EXACT = Drift()
+"""A robot without errors."""
+
+
 @dataclass(frozen=True, slots=True)
 class Options:
     """What is asked of an incursion.
@@ -30,7 +34,7 @@ class Options:
         If the confidence is not above 0 or the gain not in [0, 1).
     """
 
-    drift: Drift = Drift()
+    drift: Drift = EXACT
     """Errors of the robot."""
     confidence: float = 3.3
     """How many standard deviations the landing keeps from the bounds of its wall."""
@@ -149,7 +153,10 @@ def landing_limits(layout: Layout) -> NDArray[np.float64]:
     r_min = layout.parameters.r_min
     types = [vertex.type for vertex in layout.chart.vertices]
     is_inner = np.array(
-        [[types[a] is VertexType.INT, types[b] is VertexType.INT] for a, b in layout.ends]
+        [
+            [types[a] is VertexType.INT, types[b] is VertexType.INT]
+            for a, b in layout.ends
+        ]
     )
     low = np.where(is_inner[:, 0], 0.0, layout.spans[:, 0]) + r_min
     high = np.where(is_inner[:, 1], layout.lengths, layout.spans[:, 1]) - r_min

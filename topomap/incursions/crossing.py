@@ -58,7 +58,9 @@ def face(heading: float, wanted: float) -> Behaviour[float]:
     return wanted
 
 
-def cross(parameters: Parameters, way: float, slant: float = 0.0) -> Behaviour[Crossing]:
+def cross(
+    parameters: Parameters, way: float, slant: float = 0.0
+) -> Behaviour[Crossing]:
     """Go straight until a wall is met.
 
     Parameters
@@ -105,6 +107,9 @@ def square_up(
 ) -> Behaviour[Squared | None]:
     """Stand parallel to the wall that was met, r0 from it.
 
+    All directions are tried where the robot stands before it looks a little ahead
+    and behind: it may have met the very end of a wall.
+
     Parameters
     ----------
     parameters : Parameters
@@ -120,13 +125,15 @@ def square_up(
     Behaviour
         Returns how the robot stands now; None where there is no wall.
     """
-    for wanted, side in tries:
-        heading = yield from face(heading, wanted)
-        outcome = yield Align(side)
-        if outcome.reason is Reason.DONE:
-            return Squared(side, heading, outcome.shift, 0.0)
-        advance = yield from _look_along(parameters, side)
-        if advance is not None:
+    for is_searching in (False, True):
+        for wanted, side in tries:
+            heading = yield from face(heading, wanted)
+            advance = 0.0
+            if is_searching:
+                found = yield from _look_along(parameters, side)
+                if found is None:
+                    continue
+                advance = found
             outcome = yield Align(side)
             if outcome.reason is Reason.DONE:
                 return Squared(side, heading, outcome.shift, advance)
@@ -140,8 +147,9 @@ def _look_along(parameters: Parameters, side: Side) -> Behaviour[float | None]:
     ahead = yield Approach(sensor, reach, keep=parameters.r0, limit=little)
     if ahead.reason is Reason.SEEN:
         return ahead.distance
-    back = yield Approach(sensor, reach, Direction.BACKWARD, limit=2 * little)
+    limit = ahead.distance + little
+    back = yield Approach(sensor, reach, Direction.BACKWARD, limit=limit)
     if back.reason is Reason.SEEN:
         return ahead.distance - back.distance
-    yield Move(max(back.distance - ahead.distance, 0.0), keep=parameters.r0)
+    yield Move(max(back.distance - ahead.distance, 0.0))
     return None

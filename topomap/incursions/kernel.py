@@ -62,7 +62,11 @@ def aim(positions, covariance, ends, along, segments, limits, most, sizes):  # t
                 place = length if end else 0.0
                 for k in range(AIMS):
                     part = k / (AIMS - 1)
-                    s = (high - part * (high - low)) if end else low + part * (high - low)
+                    s = (
+                        (high - part * (high - low))
+                        if end
+                        else low + part * (high - low)
+                    )
                     tan = (s - abeam) / depth
                     if abs(tan) > STEEPEST:
                         continue
@@ -80,8 +84,17 @@ def aim(positions, covariance, ends, along, segments, limits, most, sizes):  # t
                     grow = sizes[4] * max(sa, sb) * depth / way
                     x, y = positions[i, 0] + ux * way, positions[i, 1] + uy * way
                     if _is_blocked(
-                        positions[i, 0], positions[i, 1], x, y,
-                        segments, ends, i, w, r_min, r0 - SLACK, grow,
+                        positions[i, 0],
+                        positions[i, 1],
+                        x,
+                        y,
+                        segments,
+                        ends,
+                        i,
+                        w,
+                        r_min,
+                        r0 - SLACK,
+                        grow,
                     ):
                         continue
                     found[i, w, end, 0] = s
@@ -224,8 +237,17 @@ def shoot(positions, segments, ends, along, spots, keep):  # type: ignore[no-unt
             if reach < span * 0.5 or reach < 0.3:
                 continue
             if _is_blocked(
-                x, y, x + ux * reach, y + uy * reach,
-                segments, ends, i, hit, keep, keep, 0.0,
+                x,
+                y,
+                x + ux * reach,
+                y + uy * reach,
+                segments,
+                ends,
+                i,
+                hit,
+                keep,
+                keep,
+                0.0,
             ):
                 continue
             found[n, i, 0], found[n, i, 1], found[n, i, 2] = hit, atan2(uy, ux), reach

@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
@@ -58,7 +58,8 @@ def known_space(
     """
     strips = [_strip(layout, w) for w in range(len(layout.edges))]
     r0 = layout.parameters.r0
-    corners = [shapely.box(x - r0, y - r0, x + r0, y + r0) for x, y in layout.positions]
+    x, y = layout.positions.T
+    corners = shapely.box(x - r0, y - r0, x + r0, y + r0)
     found = shapely.union_all([*filter(None, strips), *corners, *swept])
     # Pieces that touch are joined, and slits of rounding closed.
     joined: shapely.Geometry = found.buffer(1e-6, join_style="mitre")
@@ -82,38 +83,39 @@ def _strip(layout: Layout, w: int) -> shapely.Polygon | None:
 
 
 def swept_along(
-    origin: NDArray[np.float64],
-    direction: float,
-    swept: Iterable[Swept],
-    scale: float,
-    farthest: float,
+    direction: float, swept: Sequence[Swept], scale: float, farthest: float
 ) -> shapely.Geometry:
-    """Return what was swept on a straight way.
+    """Return what was swept on a straight way from the origin.
 
     Parameters
     ----------
-    origin : ndarray, shape (2,)
-        Where the way begins in the map's frame, in metres.
     direction : float
         Of the way, in radians.
-    swept : iterable of Swept
+    swept : sequence of Swept
         What the sides saw.
     scale : float
         Metres of the map for a metre of the odometer.
     farthest : float
         What lies farther to the side is not counted, in metres.
+
+    Returns
+    -------
+    shapely.Geometry
+        A polygon or several, in metres; empty if nothing was swept.
     """
+    if not swept:
+        return shapely.Polygon()
     ahead = np.array([math.cos(direction), math.sin(direction)])
-    boxes = []
-    start = 0.0
-    for piece in swept:
-        end = piece.until * scale
-        left, right = min(piece.left, farthest), min(piece.right, farthest)
-        if left + right > LEAST_WIDTH and end > start:
-            outline = [(start, -right), (end, -right), (end, left), (start, left)]
-            boxes.append(_placed(outline, origin, ahead))
-        start = end
-    found: shapely.Geometry = shapely.union_all(boxes)
+    aside = np.array([-ahead[1], ahead[0]])
+    end, left, right = np.array(swept, dtype=float).T
+    end = end * scale
+    start = np.concatenate([[0.0], end[:-1]])
+    left, right = np.minimum(left, farthest), np.minimum(right, farthest)
+    along = np.stack([start, end, end, start], axis=1)
+    across = np.stack([-right, -right, left, left], axis=1)
+    corners = along[..., None] * ahead + across[..., None] * aside
+    kept = (left + right > LEAST_WIDTH) & (end > start)
+    found: shapely.Geometry = shapely.union_all(shapely.polygons(corners[kept]))
     return found
 
 

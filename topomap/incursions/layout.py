@@ -78,10 +78,19 @@ class Layout:
         return tuple(found)
 
     def relative(self, i: int, j: int) -> NDArray[np.float64]:
-        """Return the covariance of the way from vertex i to vertex j (rows)."""
+        """Return the covariance (2, 2) of the way from vertex i to vertex j (rows)."""
+        found: NDArray[np.float64] = self.relatives(np.array([i]), np.array([j]))[0]
+        return found
+
+    def relatives(
+        self, i: NDArray[np.int64], j: NDArray[np.int64]
+    ) -> NDArray[np.float64]:
+        """Return the covariances (N, 2, 2) of the ways from vertices i to j (rows)."""
         c = self.covariance.reshape(len(self.positions), 2, -1, 2)
         cross = c[i, :, j, :]
-        found: NDArray[np.float64] = c[i, :, i, :] + c[j, :, j, :] - cross - cross.T
+        found: NDArray[np.float64] = (
+            c[i, :, i, :] + c[j, :, j, :] - cross - cross.transpose(0, 2, 1)
+        )
         return found
 
 

@@ -52,7 +52,8 @@ class Belief:
     def probabilities(self) -> NDArray[np.float64]:
         """Shape (W + 1,), summing to 1."""
         weight: NDArray[np.float64] = np.exp(self.log - self.log.max())
-        return weight / weight.sum()
+        share: NDArray[np.float64] = weight / weight.sum()
+        return share
 
 
 def believe(
@@ -144,7 +145,10 @@ def repeated(
     """
     count = len(layout.edges)
     is_right = belief.side is Side.RIGHT
-    starts, goals = layout.ends[:, 0 if is_right else 1], layout.ends[:, 1 if is_right else 0]
+    starts, goals = (
+        layout.ends[:, 0 if is_right else 1],
+        layout.ends[:, 1 if is_right else 0],
+    )
     from_vertex = {int(vertex): w for w, vertex in enumerate(starts)}
     types = [vertex.type for vertex in layout.chart.vertices]
     log = np.full(count + 1, -math.inf)
@@ -175,7 +179,8 @@ def _log_normal(miss: NDArray[np.float64], cover: NDArray[np.float64]) -> float:
     det = a * d - b * b
     x, y = miss.tolist()
     square = (d * x * x - 2 * b * x * y + a * y * y) / det
-    return -0.5 * square - 0.5 * math.log(det) - math.log(math.tau)
+    log: float = -0.5 * square - 0.5 * math.log(det) - math.log(math.tau)
+    return log
 
 
 def _log_type(expected: VertexType, seen: VertexType | None) -> float:

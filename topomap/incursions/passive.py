@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from topomap.incursions.layout import Layout
     from topomap.topological_map import TopologicalMap
 
-__all__ = ["add_passive", "corridors", "is_swept", "worthwhile"]
+__all__ = ["add_passive", "corridors", "is_swept", "with_passive", "worthwhile"]
 
 
 def add_passive(
@@ -60,18 +61,24 @@ def add_passive(
     >>> sorted({edge.kind for edge in improved.edges})
     ['base', 'passive']
     """
-    options = options or Options()
-    kept = tuple(edge for edge in chart.edges if edge.kind != "passive")
-    chart = replace(chart, edges=kept)
     layout = lay_out(chart)
-    distances = all_distances(chart)
+    return with_passive(layout, known_space(layout, swept), options or Options())
+
+
+def with_passive(
+    layout: Layout, space: shapely.Geometry, options: Options
+) -> TopologicalMap:
+    """Return a map with the passive incursions that lie in known space, found anew."""
+    chart = layout.chart
+    kept = tuple(edge for edge in chart.edges if edge.kind != "passive")
+    distances = all_distances(replace(chart, edges=kept))
     found = candidates(layout, distances, options)
-    space = known_space(layout, swept)
-    free = [c for c, ok in zip(found, is_swept(found, layout, space, options), strict=True) if ok]
+    proven = is_swept(found, layout, space, options)
+    free = [c for c, ok in zip(found, proven, strict=True) if ok]
     chosen = worthwhile(free, distances, options.gain)
     sigma = options.drift.sigma
     edges = tuple(edge_of(c, layout, "passive", sigma) for c in chosen)
-    return replace(layout.chart, edges=kept + edges)
+    return replace(chart, edges=kept + edges)
 
 
 def worthwhile(
@@ -141,7 +148,7 @@ def corridors(
     left = np.column_stack([-ahead[:, 1], ahead[:, 0]])
     starts = layout.positions[[c.source for c in found]]
     r_min = layout.parameters.r_min
-    wide = r_min + np.array([_cone(c, layout, options) for c in found])
+    wide = r_min + _cones(found, left, layout, options)
     ends = starts + ways
     corners = np.stack(
         [
@@ -156,18 +163,27 @@ def corridors(
     return shapes
 
 
-def _cone(candidate: Candidate, layout: Layout, options: Options) -> float:
-    """Return the bound of the deviation to the side at the landing, in metres."""
-    left = np.array([-np.sin(candidate.direction), np.cos(candidate.direction)])
-    map_variance = max(
-        float(left @ layout.relative(candidate.source, int(j)) @ left)
-        for j in layout.ends[candidate.wall]
-    )
-    own = options.drift.aside(candidate.reach, np.pi)
-    return options.confidence * float(np.sqrt(max(map_variance, 0.0) + own * own))
+def _cones(
+    found: Sequence[Candidate],
+    left: NDArray[np.float64],
+    layout: Layout,
+    options: Options,
+) -> NDArray[np.float64]:
+    """Return the bounds (N,) of the deviations to the side at landing, in metres."""
+    sources = np.array([c.source for c in found])
+    ends = layout.ends[[c.wall for c in found]]
+    spread = np.zeros(len(found))
+    for end in ends.T:
+        cover = layout.relatives(sources, end)
+        spread = np.maximum(spread, np.einsum("ki,kij,kj->k", left, cover, left))
+    own = np.array([options.drift.aside(c.reach, math.pi) for c in found])
+    bounds: NDArray[np.float64] = options.confidence * np.sqrt(spread + own**2)
+    return bounds
 
 
 def _ways(found: Sequence[Candidate]) -> NDArray[np.float64]:
     phi = np.array([c.direction for c in found])
     reach = np.array([c.reach for c in found])
-    return np.column_stack([np.cos(phi), np.sin(phi)]) * reach[:, None]
+    ways: NDArray[np.float64] = np.column_stack([np.cos(phi), np.sin(phi)])
+    ways *= reach[:, None]
+    return ways

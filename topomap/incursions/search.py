@@ -38,7 +38,9 @@ class Ray(NamedTuple):
     """How far the wall is, in metres."""
 
 
-def hidden_space(layout: Layout, space: shapely.Geometry, least: float) -> shapely.Geometry:
+def hidden_space(
+    layout: Layout, space: shapely.Geometry, least: float
+) -> shapely.Geometry:
     """Find the space inside the outer walls that may hold an island.
 
     Parameters
@@ -86,7 +88,9 @@ def spots_of(hidden: shapely.Geometry) -> NDArray[np.float64]:
     return np.array(found).reshape(-1, 2)
 
 
-def rays_through(layout: Layout, spots: NDArray[np.float64], keep: float) -> list[list[Ray]]:
+def rays_through(
+    layout: Layout, spots: NDArray[np.float64], keep: float
+) -> list[list[Ray]]:
     """Find for each spot the straight ways through it from vertices in open view.
 
     Parameters
@@ -149,7 +153,8 @@ def outward(
         line = shapely.LineString([here, here + FAR * ahead])
         is_tried = (vertex.id, round(math.degrees(phi))) in tried
         is_reached = math.isfinite(distances[b])
-        if vertex.type is VertexType.EXT and is_reached and not is_tried:
-            if line.distance(lines) >= 0.5 * layout.parameters.r0:
-                return vertex.id, phi
+        is_clear = line.distance(lines) >= 0.5 * layout.parameters.r0
+        is_outer = vertex.type is VertexType.EXT
+        if is_outer and is_reached and is_clear and not is_tried:
+            return vertex.id, phi
     return None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from topomap.incursions.candidates import Candidate, Options, landing_limits
-from topomap.incursions.search import hidden_space, rays_through, spots_of
+from topomap.incursions.search import Ray, hidden_space, rays_through, spots_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -160,7 +160,9 @@ def search_targets(
     return chosen
 
 
-def _covers(layout, spots, rays, sight):  # type: ignore[no-untyped-def]
+def _covers(
+    layout: Layout, spots: NDArray[np.float64], rays: Sequence[Ray], sight: float
+) -> NDArray[np.bool_]:
     """Return which spots (R, N) each ray passes within sight."""
     start = layout.positions[[ray.source for ray in rays]]
     phi = np.array([ray.direction for ray in rays])
@@ -169,10 +171,12 @@ def _covers(layout, spots, rays, sight):  # type: ignore[no-untyped-def]
     way = spots[None] - start[:, None]
     along = (way * ahead[:, None]).sum(axis=2)
     aside = way[..., 1] * ahead[:, None, 0] - way[..., 0] * ahead[:, None, 1]
-    return (abs(aside) <= sight) & (along >= 0) & (along <= reach[:, None])
+    return np.asarray(
+        (abs(aside) <= sight) & (along >= 0) & (along <= reach[:, None]), dtype=np.bool_
+    )
 
 
-def _as_candidate(layout, ray):  # type: ignore[no-untyped-def]
+def _as_candidate(layout: Layout, ray: Ray) -> Candidate:
     """Return a ray as an incursion to the nearer end of its wall."""
     a, b = layout.ends[ray.wall].tolist()
     ahead = np.array([math.cos(ray.direction), math.sin(ray.direction)])
@@ -185,5 +189,13 @@ def _as_candidate(layout, ray):  # type: ignore[no-untyped-def]
     sureness = 1.0 if low <= place <= high else 0.5
     target = b if end else a
     return Candidate(
-        ray.source, ray.wall, end, target, place, ray.direction, ray.reach, rest, sureness
+        ray.source,
+        ray.wall,
+        end,
+        target,
+        place,
+        ray.direction,
+        ray.reach,
+        rest,
+        sureness,
     )

@@ -32,7 +32,7 @@ def plan_tour(
     Returns
     -------
     list of int
-        Numbers of tasks, in order. Those that cannot be reached come last.
+        Numbers of tasks, in order. A way that does not exist counts as very long.
 
     Notes
     -----

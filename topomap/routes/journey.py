@@ -157,7 +157,7 @@ class Journey:
             From the running coroutine, where the robot is stuck or lost, no way is
             left, or nothing helps.
         """
-        routes = []
+        routes: list[Route] = []
         while len(routes) < MOST_PLANS:
             routes.append(plan_route(self.chart, self.vertex, target, cost))
             for step in routes[-1].steps:
@@ -218,9 +218,7 @@ class Journey:
         ahead = np.array([math.cos(edge.source_exit), math.sin(edge.source_exit)])
         normal = layout.normals[wall]
         depth = max(abs(float(ahead @ normal)), 0.2)
-        cover = layout.relative(
-            layout.index[edge.source], int(layout.ends[wall, 0])
-        )
+        cover = layout.relative(layout.index[edge.source], int(layout.ends[wall, 0]))
         return math.hypot(own, math.sqrt(max(normal @ cover @ normal, 0.0)) / depth)
 
     def _is_there(
@@ -241,8 +239,8 @@ def _wall_of(layout: Layout, edge: Edge) -> tuple[int, int]:
     target = layout.index[edge.target]
     for w, wall in enumerate(layout.edges):
         for end, exit_ in ((1, wall.target_exit), (0, wall.source_exit)):
-            if layout.ends[w, end] == target and same_direction(exit_, edge.target_exit):
+            if layout.ends[w, end] == target and same_direction(
+                exit_, edge.target_exit
+            ):
                 return w, end
     raise JobError(f"vertex {edge.target} has no wall for an incursion to land on")
-
-

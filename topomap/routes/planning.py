@@ -14,7 +14,11 @@ from topomap.routes.costs import cost_of
 if TYPE_CHECKING:
     from topomap.topological_map import Edge, TopologicalMap
 
-__all__ = ["Route", "Step", "plan_route"]
+__all__ = ["NoWayError", "Route", "Step", "plan_route"]
+
+
+class NoWayError(JobError):
+    """No way leads from where a robot is to where it should go."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +96,7 @@ def plan_route(
     ------
     InputError
         If a vertex or the cost does not exist.
-    JobError
+    NoWayError
         If no way leads there.
 
     Notes
@@ -115,7 +119,7 @@ def plan_route(
             raise InputError("", name, vertex, "the id of a vertex of the map")
     best = _cheapest(_ways(chart, cost), source, target)
     if best is None:
-        raise JobError(f"no way leads from vertex {source} to vertex {target}")
+        raise NoWayError(f"no way leads from vertex {source} to vertex {target}")
     steps = []
     vertex = target
     while vertex != source:

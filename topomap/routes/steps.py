@@ -64,7 +64,7 @@ class Arrival:
 
     @property
     def shift(self) -> float:
-        """How far it moved away from the wall on its right as it followed, in metres."""
+        """How far it moved away from the wall beside it as it followed, in metres."""
         return self.leg.shift if self.leg else 0.0
 
 
@@ -181,7 +181,9 @@ def next_direction(arrival: Arrival) -> float:
     return arrival.heading + (turn if arrival.side is Side.RIGHT else -turn)
 
 
-def tries_at(phi: float, readings_left: float, readings_right: float, r0: float) -> list[tuple[float, Side]]:
+def tries_at(
+    phi: float, readings_left: float, readings_right: float, r0: float
+) -> list[tuple[float, Side]]:
     """Return how a robot that met an unknown wall can stand with it on its right.
 
     Parameters
@@ -264,7 +266,8 @@ def land(
     spread = spread + own**2 * np.outer(aside, aside) + SLIP**2 * np.eye(2)
     way = crossing.distance * ahead
     if squared is None:
-        return Arrival(None, phi, Side.RIGHT, way, spread, 0.0, None, crossing)
+        heading = tries[-1][0]
+        return Arrival(None, heading, Side.RIGHT, way, spread, 0.0, None, crossing)
     along_ = np.array([math.cos(squared.heading), math.sin(squared.heading)])
     left = np.array([-along_[1], along_[0]])
     way = way + squared.shift * left + squared.advance * along_
