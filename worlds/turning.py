@@ -20,6 +20,10 @@ ROUND = 0.005
 """Least error of a range that a sweep reckons with, in parts of r0."""
 REACH = 0.85
 """Part of its range in which a ranger sees all of its spot on a slanted wall."""
+DOUBTS = 6.0
+"""A wall that lies askew by more standard deviations of the heading is another one."""
+ASKEW = 0.1
+"""How much more it may lie askew, in radians."""
 CLOSE = 1 / 15
 """An offset nearer to r0 than this, in parts of r0, is left to following."""
 
@@ -117,7 +121,8 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
             scan.append((robot.turned - axis, reading))
     yield from stop(robot)
     wall = wall_of_scan(scan, _inverse_error(robot), side, 2 * ranger.cone)
-    if wall is None:
+    most = ASKEW + DOUBTS * math.sqrt(robot.lean_variance)
+    if wall is None or abs(wall.normal) > most:
         yield from spin(robot, axis - robot.turned)
         return math.inf
     yield from spin(robot, axis + wall.normal - robot.turned)

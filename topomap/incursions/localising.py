@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from topomap.incursions.layout import Layout
     from topomap.routes.steps import Arrival
 
-__all__ = ["Belief", "believe", "likeliest", "repeated"]
+__all__ = ["Belief", "anywhere", "believe", "likeliest", "repeated"]
 
 FORETOLD = 0.9
 """Prior probability that a robot arrives where it meant to."""
@@ -118,6 +118,17 @@ def believe(
         log[w] += _log_type(types[goal], arrival.corner)
     log[count] += math.log(0.5 / SPREAD_OUT)
     return Belief(arrival.side, log)
+
+
+def anywhere(layout: Layout, corner: VertexType) -> Belief:
+    """Return the belief of a robot that knows only its corner, the wall on its right.
+
+    For one whose heading has become wrong: then its reckoning is wrong too.
+    """
+    types = [vertex.type for vertex in layout.chart.vertices]
+    goals = layout.ends[:, 1].tolist()
+    log = [_log_type(types[goal], corner) for goal in goals]
+    return Belief(Side.RIGHT, np.array([*log, -math.inf]))
 
 
 def repeated(

@@ -17,7 +17,13 @@ from behaviours.vertices import VertexType
 from evidence.walls import Wall
 from topomap.boundary import TURN, Walk
 from topomap.errors import JobError
-from topomap.incursions.localising import Belief, believe, likeliest, repeated
+from topomap.incursions.localising import (
+    Belief,
+    anywhere,
+    believe,
+    likeliest,
+    repeated,
+)
 from topomap.routes.steps import Arrival, follow_on, land, next_direction
 
 if TYPE_CHECKING:
@@ -35,6 +41,10 @@ SURE = 0.999
 """Probability at which a robot takes a place for its own."""
 TRIES = 4
 """Where no wall stands beside it, the robot goes on to the next so many times."""
+LAPS = 3
+"""A robot that knows its loop and not its place gives up after so many rounds."""
+ASTRAY = 20.0
+"""Log odds against all known places from which on a robot doubts its heading."""
 MAX_WALLS = 500
 """After so many walls a robot gives up."""
 
@@ -112,7 +122,7 @@ def locate(
     belief = believe(layout, arrival, origin, foretold)
     wall, probability = likeliest(belief)
     if probability >= SURE and wall < len(layout.edges):
-        return _found(layout, belief, wall, probability, arrival.heading, 1)
+        return _found(layout, belief, wall, probability, 1)
     if arrival.side is Side.LEFT:
         arrival = yield from _about(layout, arrival, drift)
         belief = believe(layout, arrival, origin, None)
@@ -132,17 +142,16 @@ def _follow(
     while len(legs) < MAX_WALLS:
         wall, probability = likeliest(belief)
         if probability >= SURE and wall < count:
-            heading, walls = arrival.heading, len(legs) + 1
-            return _found(layout, belief, wall, probability, heading, walls)
+            return _found(layout, belief, wall, probability, len(legs) + 1)
         is_closed = bool(decisions) and decisions[-1].period is not None
         if is_closed and belief.log[-1] > -math.inf:
             walk = Walk(_open(first), tuple(legs), tuple(decisions))
             new = NewLoop(walk, first, arrival.heading)
             if wall == count and (new.turning < 0 or not _has_outer(layout)):
                 return new
-            belief = Belief(belief.side, np.append(belief.log[:-1], -math.inf))
+            belief = _somewhere(layout, belief, _open(first), legs, drift)
             continue
-        if is_closed:
+        if is_closed and len(legs) >= LAPS * (decisions[-1].period or 1):
             break
         arrival = yield from follow_on(
             layout.parameters,
@@ -162,16 +171,36 @@ def _follow(
     raise JobError(f"lost: after {len(legs)} walls several places are possible")
 
 
+def _somewhere(
+    layout: Layout, belief: Belief, corner: VertexType, legs: list[Leg], drift: Drift
+) -> Belief:
+    """Return the belief of a robot that must be on a wall of its map.
+
+    It has come round a loop that can only be a known one. Where what it reckoned
+    speaks against that, its heading must have become wrong: then the walls alone
+    count.
+    """
+    known = belief.log[:-1]
+    if np.isfinite(known).any() and known.max() > belief.log[-1] - ASTRAY:
+        return Belief(belief.side, np.append(known, -math.inf))
+    belief = anywhere(layout, corner)
+    for leg in legs:
+        length = max(leg.length, 0.0)
+        belief = repeated(layout, belief, leg.corner, length, drift.sigma)
+    return belief
+
+
 def _found(
     layout: Layout,
     belief: Belief,
     wall: int,
     probability: float,
-    heading: float,
     walls: int,
 ) -> Found:
-    end = 1 if belief.side is Side.RIGHT else 0
-    return Found(int(layout.ends[wall, end]), heading, probability, walls)
+    is_right = belief.side is Side.RIGHT
+    x, y = layout.along[wall] if is_right else -layout.along[wall]
+    vertex = int(layout.ends[wall, 1 if is_right else 0])
+    return Found(vertex, math.atan2(y, x), probability, walls)
 
 
 def _has_outer(layout: Layout) -> bool:
