@@ -17,8 +17,10 @@ MODULES = (
     "topomap.experiments.closing",
     "topomap.experiments.exploring",
     "topomap.experiments.floor_plans",
+    "topomap.experiments.incursions",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
+    "topomap.experiments.routes",
 )
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
 

@@ -17,6 +17,7 @@ from topomap.incursions.known_space import free_space, known_space, swept_along
 from topomap.incursions.layout import Layout, lay_out
 from topomap.incursions.passive import is_swept, with_passive
 from topomap.incursions.search import outward
+from topomap.incursions.sureness import landing_sureness, with_sureness
 from topomap.incursions.targets import (
     SIGHT,
     may_return,
@@ -43,6 +44,8 @@ MOST_PLANS = 60
 CRUMB = 1e-3
 LESS_SURE = 2.0, 1.0, 0.3
 """Confidences, in standard deviations, at which a way home is looked for."""
+TRUSTED = 0.95
+"""Driven incursions that are less sure are left out of the map if they can be."""
 LEAST_AREA = 1e-3
 """Less hidden space than this, in square metres, hides nothing."""
 
@@ -280,6 +283,8 @@ def _keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
         shift=float(beside @ [-along[1], along[0]]),
         kind="active",
     )
+    sureness = landing_sureness(journey.layout, edge, journey.drift)
+    edge = replace(edge, sureness=sureness)
     journey.chart = replace(journey.chart, edges=(*journey.chart.edges, edge))
 
 
@@ -288,5 +293,27 @@ def finished(
 ) -> TopologicalMap:
     """Return a map placed by all that was measured, with its passive incursions."""
     layout = lay_out(embedded(chart))
+    chart = _trusted(with_sureness(layout, options.drift))
+    layout = replace(layout, chart=chart)
     space = known_space(layout, geometry_of(layout, crossed))
     return with_passive(layout, space, options)
+
+
+def _trusted(chart: TopologicalMap) -> TopologicalMap:
+    """Leave out driven incursions that are not sure, unless only they lead there."""
+    import networkx as nx
+
+    index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
+    kept = [e for e in chart.edges if e.kind != "active" or e.sureness >= TRUSTED]
+    left = [e for e in chart.edges if e.kind == "active" and e.sureness < TRUSTED]
+    graph: nx.DiGraph[int] = nx.DiGraph()
+    graph.add_nodes_from(index.values())
+    for edge in kept:
+        a, b = index[edge.source], index[edge.target]
+        graph.add_edges_from([(a, b)] if edge.is_incursion else [(a, b), (b, a)])
+    for edge in sorted(left, key=lambda e: -e.sureness):
+        a, b = index[edge.source], index[edge.target]
+        if not nx.has_path(graph, a, b):
+            graph.add_edge(a, b)
+            kept.append(edge)
+    return replace(chart, edges=tuple(kept))

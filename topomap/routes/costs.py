@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 __all__ = ["COSTS", "all_distances", "cost_matrix", "cost_of"]
 
 COSTS = "metres", "risk"
+DETOUR = 30.0
+"""What it costs a robot to find its place again and plan anew, in metres."""
 LEAST_RISK = 1e-6
 """Risk of a metre that nothing can go wrong on: shorter is better among equals."""
 WALL_SURENESS = 0.9999
@@ -32,8 +34,8 @@ def cost_of(edge: Edge, cost: str) -> float:
     edge : Edge
         Of the map.
     cost : {"metres", "risk"}
-        Its length; or the risk, minus the logarithm of the probability to arrive,
-        which adds up along a route.
+        Its length, and a detour as often as it leads elsewhere; or the risk, minus
+        the logarithm of the probability to arrive, which adds up along a route.
 
     Returns
     -------
@@ -49,7 +51,7 @@ def cost_of(edge: Edge, cost: str) -> float:
         raise InputError("", "cost", cost, f"one of {', '.join(COSTS)}")
     length = edge.fused.value
     if cost == "metres":
-        return length
+        return length + (1.0 - edge.sureness) * DETOUR
     sureness = edge.sureness if edge.is_incursion else edge.sureness * WALL_SURENESS
     return -math.log(max(sureness, 1e-300)) + LEAST_RISK * length
 

@@ -15,9 +15,9 @@ from topomap.incursions.islands import add_loop
 from topomap.incursions.layout import Layout, lay_out
 from topomap.incursions.localising import believe, likeliest
 from topomap.incursions.locating import Found, NewLoop, locate
+from topomap.incursions.sureness import wall_of, with_sureness
 from topomap.routes.planning import Route, Step, plan_route
 from topomap.routes.steps import land, walk_wall
-from topomap.topological_map import same_direction
 
 if TYPE_CHECKING:
     from behaviours.port import Behaviour
@@ -140,7 +140,8 @@ class Journey:
             self.vertex = layout.chart.vertices[found.vertex].id
         else:
             sigma = self.drift.sigma
-            self.chart, self.vertex = add_loop(layout, origin, phi, found, sigma)
+            chart, self.vertex = add_loop(layout, origin, phi, found, sigma)
+            self.chart = with_sureness(lay_out(chart), self.drift)
         return found
 
     def go_to(self, target: int, cost: str = "metres") -> Behaviour[list[Route]]:
@@ -193,7 +194,7 @@ class Journey:
 
     def _cross(self, layout: Layout, edge: Edge) -> Behaviour[tuple[Arrival, int]]:
         """Take an incursion; return the arrival and the wall that was meant."""
-        wall, end = _wall_of(layout, edge)
+        wall, end = wall_of(layout, edge)
         heading = edge.target_exit + math.pi
         side = Side.RIGHT if end else Side.LEFT
         reach = edge.reach or 0.0
@@ -232,15 +233,3 @@ class Journey:
         end = 1 if belief.side is Side.RIGHT else 0
         vertex = layout.chart.vertices[int(layout.ends[wall, end])].id
         return wall == foretold and vertex == step.target
-
-
-def _wall_of(layout: Layout, edge: Edge) -> tuple[int, int]:
-    """Return the wall that an incursion lands on, and at which end its target is."""
-    target = layout.index[edge.target]
-    for w, wall in enumerate(layout.edges):
-        for end, exit_ in ((1, wall.target_exit), (0, wall.source_exit)):
-            if layout.ends[w, end] == target and same_direction(
-                exit_, edge.target_exit
-            ):
-                return w, end
-    raise JobError(f"vertex {edge.target} has no wall for an incursion to land on")
