@@ -75,7 +75,8 @@ class Edge:
     """Straight part of an incursion up to the wall, in metres."""
     widths: tuple[tuple[float, float], ...] = ()
     """Clearance profile: pieces of the way from the source, where each ends and the
-    least free width on its left, in metres, as far as the sensors reach."""
+    least free width on its left, in metres, as far as the sensors reach; of the
+    straight part of an incursion, the least to either side."""
 
     @property
     def is_incursion(self) -> bool:

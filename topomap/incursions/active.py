@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from behaviours.port import Behaviour
     from topomap.incursions.candidates import Candidate
     from topomap.routes.journey import Journey, Outcome
+    from topomap.routes.steps import Arrival
     from topomap.topological_map import TopologicalMap
 
 __all__ = ["Crossed", "Exploration", "explore_space", "finished", "geometry_of"]
@@ -282,10 +283,19 @@ def _keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
         reach=reach,
         shift=float(beside @ [-along[1], along[0]]),
         kind="active",
+        widths=_widths(arrival),
     )
     sureness = landing_sureness(journey.layout, edge, journey.drift)
     edge = replace(edge, sureness=sureness)
     journey.chart = replace(journey.chart, edges=(*journey.chart.edges, edge))
+
+
+def _widths(arrival: Arrival) -> tuple[tuple[float, float], ...]:
+    """Return how wide a crossed way is known to be free, to either side alike."""
+    swept = arrival.crossing.swept if arrival.crossing else ()
+    return tuple(
+        (round(s.until, 4), round(min(s.left, s.right, FARTHEST), 3)) for s in swept
+    )
 
 
 def finished(

@@ -7,14 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
+from shapely.affinity import translate
+
+from behaviours.port import Swept
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from numpy.typing import NDArray
 
-    from behaviours.port import Swept
     from topomap.incursions.layout import Layout
+    from topomap.topological_map import Edge
 
 __all__ = ["free_space", "known_space", "swept_along", "wall_polygons"]
 
@@ -60,7 +63,8 @@ def known_space(
     r0 = layout.parameters.r0
     x, y = layout.positions.T
     corners = shapely.box(x - r0, y - r0, x + r0, y + r0)
-    found = shapely.union_all([*filter(None, strips), *corners, *swept])
+    crossed = [_corridor(layout, edge) for edge in layout.chart.edges if edge.reach]
+    found = shapely.union_all([*filter(None, strips), *crossed, *corners, *swept])
     # Pieces that touch are joined, and slits of rounding closed.
     joined: shapely.Geometry = found.buffer(1e-6, join_style="mitre")
     return joined
@@ -80,6 +84,14 @@ def _strip(layout: Layout, w: int) -> shapely.Polygon | None:
         start = end
     outline = [(0.0, -r0), (start, -r0), *reversed(left)]
     return _placed(outline, layout.positions[layout.ends[w, 0]], layout.along[w])
+
+
+def _corridor(layout: Layout, edge: Edge) -> shapely.Geometry:
+    """Return what was swept along an incursion, to either side alike."""
+    origin = layout.positions[layout.index[edge.source]]
+    swept = [Swept(until, width, width) for until, width in edge.widths]
+    shape = swept_along(edge.source_exit, swept, 1.0, math.inf)
+    return translate(shape, *origin)
 
 
 def swept_along(

@@ -127,13 +127,15 @@ def walk_wall(
     ----------
     parameters : Parameters
         The lengths the robot keeps.
-    corner, end : VertexType
-        Where the robot stands, and what it should come to.
+    corner : VertexType
+        Where the robot stands.
     heading : float
         Of the robot, in radians in the map's frame.
     edge : Edge
         Followed with the wall on the right from source to target, with the wall on
         the left on the way back.
+    end : VertexType
+        What it should come to.
     is_forward : bool
         Whether from source to target.
     sigma : float
