@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from topomap.errors import InputError
-from topomap.springs import solve_springs
+from topomap.springs import inverse_stiffness, solve_springs
 from topomap.topological_map import Edge, TopologicalMap, Vertex
 
 if TYPE_CHECKING:
@@ -142,8 +142,8 @@ def joint_covariance(chart: TopologicalMap) -> NDArray[np.float64]:
 
     Notes
     -----
-    The inverse of the stiffness of `embed`, dense: O(V^3), some 10 ms for 200
-    vertices.
+    The inverse of the stiffness of `embed`, column by column from its sparse
+    factors: O(V^2) for maps of buildings, some 10 ms for 200 vertices.
     """
     count = len(chart.vertices)
     whole = np.zeros((2 * count, 2 * count))
@@ -154,22 +154,14 @@ def joint_covariance(chart: TopologicalMap) -> NDArray[np.float64]:
     ends = np.array([(index[e.source], index[e.target]) for e in edges])
     fixed, _ = _parts(count, ends)
     _, weight = _springs(edges)
-    source, target = ends.T
-    stiffness = np.zeros((count, count, 2, 2))
-    np.add.at(stiffness, (source, source), weight)
-    np.add.at(stiffness, (target, target), weight)
-    np.subtract.at(stiffness, (source, target), weight)
-    np.subtract.at(stiffness, (target, source), weight)
     free = np.setdiff1d(np.arange(count), fixed)
-    matrix = stiffness[np.ix_(free, free)].transpose(0, 2, 1, 3)
-    size = len(free)
-    if np.abs(weight[:, 0, 1]).max() <= 1e-9 * weight.max():
-        for axis in (0, 1):
-            rows = 2 * free + axis
-            whole[np.ix_(rows, rows)] = np.linalg.inv(matrix[:, axis, :, axis])
-        return whole
-    rows = (2 * free[:, None] + np.arange(2)).ravel()
-    whole[np.ix_(rows, rows)] = np.linalg.inv(matrix.reshape(2 * size, 2 * size))
+    place = np.full(count, -1)
+    place[free] = np.arange(len(free))
+    is_apart = np.abs(weight[:, 0, 1]).max() <= 1e-9 * weight.max()
+    for axes in ([0], [1]) if is_apart else ([0, 1],):
+        block = weight[:, axes][:, :, axes]
+        rows = (2 * free[:, None] + axes).ravel()
+        whole[np.ix_(rows, rows)] = inverse_stiffness(place[ends], block, len(free))
     return whole
 
 

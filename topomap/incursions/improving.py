@@ -30,7 +30,7 @@ IMPROVEMENTS = "none", "passive", "active"
 """What can be done to a base map."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, slots=True)
 class Improvement:
     """A map made better, and what it took."""
 

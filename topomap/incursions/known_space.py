@@ -59,31 +59,42 @@ def known_space(
     >>> round(known_space(lay_out(room)).area, 2)  # no profiles: corners only
     1.44
     """
-    strips = [_strip(layout, w) for w in range(len(layout.edges))]
     r0 = layout.parameters.r0
     x, y = layout.positions.T
     corners = shapely.box(x - r0, y - r0, x + r0, y + r0)
     crossed = [_corridor(layout, edge) for edge in layout.chart.edges if edge.reach]
-    found = shapely.union_all([*filter(None, strips), *crossed, *corners, *swept])
+    found = shapely.union_all([*_strips(layout), *crossed, *corners, *swept])
     # Pieces that touch are joined, and slits of rounding closed.
     joined: shapely.Geometry = found.buffer(1e-6, join_style="mitre")
     return joined
 
 
-def _strip(layout: Layout, w: int) -> shapely.Polygon | None:
-    """Return what was swept along one wall."""
-    edge = layout.edges[w]
-    if not edge.widths:
-        return None
-    r0, scale = layout.parameters.r0, layout.lengths[w] / edge.widths[-1][0]
-    left: list[tuple[float, float]] = []
-    start = 0.0
-    for until, width in edge.widths:
-        end = until * scale
-        left += [(start, width), (end, width)]
-        start = end
-    outline = [(0.0, -r0), (start, -r0), *reversed(left)]
-    return _placed(outline, layout.positions[layout.ends[w, 0]], layout.along[w])
+def _strips(layout: Layout) -> NDArray[np.object_]:
+    """Return what was swept along each wall whose edge has a profile."""
+    r0 = layout.parameters.r0
+    corners: list[NDArray[np.float64]] = []
+    owners: list[NDArray[np.int64]] = []
+    seen = [w for w, edge in enumerate(layout.edges) if edge.widths]
+    for w in seen:
+        widths = np.array(layout.edges[w].widths)
+        until = widths[:, 0] * (layout.lengths[w] / widths[-1, 0])
+        start = np.concatenate([[0.0], until[:-1]])
+        along = np.concatenate(
+            [[until[-1], 0.0], np.column_stack([start, until]).ravel()]
+        )
+        across = np.concatenate([[-r0, -r0], np.repeat(widths[:, 1], 2)])
+        origin = layout.positions[layout.ends[w, 0]]
+        corners.append(
+            origin
+            + along[:, None] * layout.along[w]
+            + across[:, None] * layout.normals[w]
+        )
+        owners.append(np.full(len(along), len(owners)))
+    if not seen:
+        return np.empty(0, dtype=object)
+    rings = shapely.linearrings(np.concatenate(corners), indices=np.concatenate(owners))
+    shapes: NDArray[np.object_] = shapely.polygons(rings)
+    return shapes
 
 
 def _corridor(layout: Layout, edge: Edge) -> shapely.Geometry:
@@ -129,16 +140,6 @@ def swept_along(
     kept = (left + right > LEAST_WIDTH) & (end > start)
     found: shapely.Geometry = shapely.union_all(shapely.polygons(corners[kept]))
     return found
-
-
-def _placed(
-    outline: list[tuple[float, float]],
-    origin: NDArray[np.float64],
-    ahead: NDArray[np.float64],
-) -> shapely.Polygon:
-    points = np.array(outline)
-    left = np.array([-ahead[1], ahead[0]])
-    return shapely.Polygon(origin + points[:, :1] * ahead + points[:, 1:] * left)
 
 
 def wall_polygons(layout: Layout) -> list[tuple[shapely.Polygon, bool]]:

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Layout", "lay_out"]
 
+OVERHANG = {VertexType.INT: 1.0, VertexType.EXT: -1.0}
+"""How far a wall reaches past its vertex, in parts of r0."""
+
 
 @dataclass(frozen=True, eq=False)
 class Layout:
@@ -111,7 +114,7 @@ def lay_out(chart: TopologicalMap) -> Layout:
     -----
     At an inner corner a wall begins (ends) r0 behind (past) its vertex, at an outer
     one r0 past (before) it. A wall with ill-defined corners is taken to lie where
-    it stands out most. O(V^3) for the joint covariance.
+    it stands out most. O(V^2) for the joint covariance.
 
     Examples
     --------
@@ -138,8 +141,8 @@ def lay_out(chart: TopologicalMap) -> Layout:
     length = (way * along).sum(axis=1)
     aside = (way * normal).sum(axis=1)
     r0 = robot.r0
-    first = np.array([_overhang(types[edge.source]) for edge in edges])
-    last = np.array([_overhang(types[edge.target]) for edge in edges])
+    first = np.array([OVERHANG.get(types[edge.source], 0.0) for edge in edges])
+    last = np.array([OVERHANG.get(types[edge.target], 0.0) for edge in edges])
     spans = np.column_stack([-r0 * first, length + r0 * last])
     offset = (np.maximum(aside, 0.0) - r0)[:, None] * normal
     base = positions[ends[:, 0]] + offset
@@ -148,8 +151,3 @@ def lay_out(chart: TopologicalMap) -> Layout:
     return Layout(
         chart, robot, positions, covariance, edges, ends, along, segments, spans
     )
-
-
-def _overhang(corner: VertexType) -> float:
-    """Return how far a wall reaches past its vertex, in parts of r0."""
-    return {VertexType.INT: 1.0, VertexType.EXT: -1.0}.get(corner, 0.0)

@@ -4,17 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
-
-import numpy as np
+from typing import TYPE_CHECKING, NamedTuple
 
 from topomap.errors import InputError, JobError
-from topomap.routes.costs import cost_of
+from topomap.routes.costs import cost_matrix, cost_of
 
 if TYPE_CHECKING:
     from topomap.topological_map import Edge, TopologicalMap
 
-__all__ = ["NoWayError", "Route", "Step", "plan_route"]
+__all__ = ["NoWayError", "Route", "Router", "Step", "plan_route"]
 
 
 class NoWayError(JobError):
@@ -60,6 +58,14 @@ class Step:
         return f"{self.source} -> {self.target}: {what}, wall on the {side}"
 
 
+class _Priced(NamedTuple):
+    """A step, what it costs, and how long it is."""
+
+    price: float
+    length: float
+    step: Step
+
+
 @dataclass(frozen=True, slots=True)
 class Route:
     """A way through a map as behaviours."""
@@ -101,8 +107,8 @@ def plan_route(
 
     Notes
     -----
-    Walls can be followed both ways, incursions only forwards. Dijkstra from the
-    source until the target is met, by a binary heap.
+    Walls can be followed both ways, incursions only forwards. For many routes on one
+    map make a `Router` once: this makes a new one.
 
     Examples
     --------
@@ -113,59 +119,66 @@ def plan_route(
     ...     print(step)
     0 -> 3: WF 2.40 m to 90 deg, wall on the left
     """
-    ids = {vertex.id for vertex in chart.vertices}
-    for name, vertex in (("source", source), ("target", target)):
-        if vertex not in ids:
-            raise InputError("", name, vertex, "the id of a vertex of the map")
-    best = _cheapest(_ways(chart, cost), source, target)
-    if best is None:
-        raise NoWayError(f"no way leads from vertex {source} to vertex {target}")
-    steps = []
-    vertex = target
-    while vertex != source:
-        steps.append(best[vertex])
-        vertex = best[vertex].source
-    steps.reverse()
-    return Route(
-        source,
-        target,
-        tuple(steps),
-        sum(step.edge.fused.value for step in steps),
-        float(np.prod([step.edge.sureness for step in steps])),
-    )
+    return Router(chart, cost).route(source, target)
 
 
-def _ways(chart: TopologicalMap, cost: str) -> dict[int, list[tuple[float, Step]]]:
-    ways: dict[int, list[tuple[float, Step]]] = {v.id: [] for v in chart.vertices}
-    for edge in chart.edges:
-        value = cost_of(edge, cost)
-        ways[edge.source].append((value, Step(edge, True)))
-        if not edge.is_incursion:
-            ways[edge.target].append((value, Step(edge, False)))
-    return ways
+class Router:
+    """All steps of a map by their costs, to plan many routes.
 
+    Parameters
+    ----------
+    chart : TopologicalMap
+        A base map, or one with incursions.
+    cost : {"metres", "risk"}
+        What is least.
 
-def _cheapest(
-    ways: dict[int, list[tuple[float, Step]]], source: int, target: int
-) -> dict[int, Step] | None:
-    """Return the last step to each vertex on the way; None if there is none."""
-    from heapq import heappop, heappush
+    Notes
+    -----
+    Made in O(E) time; a route takes one compiled Dijkstra search, some milliseconds
+    on a map of 10,000 vertices.
+    """
 
-    best: dict[int, Step] = {}
-    costs = {source: 0.0}
-    done: set[int] = set()
-    heap = [(0.0, source)]
-    while heap:
-        here, vertex = heappop(heap)
-        if vertex == target:
-            return best
-        if vertex in done:
-            continue
-        done.add(vertex)
-        for value, step in ways[vertex]:
-            there = here + value
-            if there < costs.get(step.target, math.inf):
-                costs[step.target] = there
-                best[step.target] = step
-                heappush(heap, (there, step.target))
-    return None
+    def __init__(self, chart: TopologicalMap, cost: str = "metres") -> None:
+        self._ids = [vertex.id for vertex in chart.vertices]
+        self._index = {id_: k for k, id_ in enumerate(self._ids)}
+        self._matrix = cost_matrix(chart, cost)
+        self._steps: dict[tuple[int, int], _Priced] = {}
+        for edge in chart.edges:
+            a, b = self._index[edge.source], self._index[edge.target]
+            price, length = cost_of(edge, cost), edge.fused.value
+            self._offer((a, b), _Priced(price, length, Step(edge, True)))
+            if not edge.is_incursion:
+                self._offer((b, a), _Priced(price, length, Step(edge, False)))
+
+    def _offer(self, ends: tuple[int, int], way: _Priced) -> None:
+        """Keep a way between two vertices if it is the cheapest so far."""
+        if ends not in self._steps or way.price < self._steps[ends].price:
+            self._steps[ends] = way
+
+    def route(self, source: int, target: int) -> Route:
+        """Find the cheapest route between two vertices; see `plan_route`."""
+        from scipy.sparse.csgraph import dijkstra
+
+        for name, vertex in (("source", source), ("target", target)):
+            if vertex not in self._index:
+                expected = "the id of a vertex of the map"
+                raise InputError("", name, vertex, expected)
+        here, there = self._index[source], self._index[target]
+        _, before = dijkstra(self._matrix, indices=here, return_predecessors=True)
+        ways = []
+        while there != here:
+            last = int(before[there])
+            if last < 0:
+                raise NoWayError(
+                    f"no way leads from vertex {source} to vertex {target}"
+                )
+            ways.append(self._steps[last, there])
+            there = last
+        ways.reverse()
+        return Route(
+            source,
+            target,
+            tuple(way.step for way in ways),
+            sum(way.length for way in ways),
+            math.prod(way.step.edge.sureness for way in ways),
+        )
