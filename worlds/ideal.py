@@ -134,7 +134,7 @@ class IdealBody:
     def execute(self, primitive: Primitive) -> Outcome:
         """Carry out one primitive to its end; see `behaviours.port`."""
         if self._slant is not None:
-            return self._execute_aslant(primitive, *self._slant)
+            return self._execute_aslant(primitive)
         match primitive:
             case Turn(side, angle) if not _is_quarters(angle):
                 return self._swing(side.value * angle)
@@ -212,46 +212,22 @@ class IdealBody:
     def _walls(self) -> NDArray[np.float64]:
         return wall_segments(self._world)
 
-    def _execute_aslant(
-        self, primitive: Primitive, x: float, y: float, heading: float
-    ) -> Outcome:
+    def _execute_aslant(self, primitive: Primitive) -> Outcome:
         """Carry out a primitive on a heading along no axis."""
         if isinstance(primitive, Turn):
             return self._swing(primitive.side.value * primitive.angle)
-        if not isinstance(primitive, (Move, Approach)) or (
-            primitive.direction is Direction.BACKWARD
-        ):
-            raise WorldError(
-                "heading",
-                f"a {type(primitive).__name__} needs a heading along a wall; got "
-                f"{math.degrees(heading):g} degrees",
-            )
-        r_min = self.parameters.r_min
+        x, y, heading = self.pose
         sight = Oblique(self._walls, x, y, heading)
-        room = max(0.0, sight.ahead(r_min) - primitive.keep)
-        if isinstance(primitive, Move):
-            seen, limit, found = math.inf, primitive.distance, Reason.DONE
-        else:
-            seen, limit, found = math.inf, primitive.limit, Reason.SEEN
-            for sensor in primitive.sensors:
-                if sensor is Sensor.FRONT:
-                    front = max(0.0, sight.ahead(r_min) - primitive.within)
-                    seen = min(seen, front)
-                else:
-                    side = Side.LEFT if sensor is Sensor.LEFT else Side.RIGHT
-                    seen = min(seen, sight.until_beside(side, primitive.within))
-        way = min(room, seen, limit)
-        if math.isinf(way):
-            raise WorldError("start", "no wall comes in sight: is the start inside?")
-        reason = found if seen <= limit else Reason.DONE
-        if room < min(seen, limit) - EPS:
-            reason = Reason.BLOCKED
-        c, s = math.cos(heading), math.sin(heading)
-        self._slant = (x + way * c, y + way * s, heading)
+        way, reason = sight.end_of(primitive, self.parameters.r_min)
+        self._slant = (
+            x + way * math.cos(heading),
+            y + way * math.sin(heading),
+            heading,
+        )
         self.travelled += way
         self.clock += way / SPEED
         swept = sight.swept(way, self._scale)
-        there = Oblique(self._walls, *self._slant).readings(r_min)
+        there = Oblique(self._walls, *self._slant).readings(self.parameters.r_min)
         return Outcome(way * self._scale, reason, there, swept=swept)
 
     def _room_ahead(self, keep: float) -> float:

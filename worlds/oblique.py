@@ -13,12 +13,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from behaviours.port import Readings, Side, Swept
+from behaviours.port import (
+    Approach,
+    Direction,
+    Move,
+    Readings,
+    Reason,
+    Sensor,
+    Side,
+    Swept,
+)
+from worlds.errors import WorldError
 from worlds.sweeping import PIECE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from behaviours.port import Primitive
     from worlds.world import World
 
 __all__ = ["Oblique", "wall_segments"]
@@ -49,6 +60,7 @@ class Oblique:
     def __init__(
         self, walls: NDArray[np.float64], x: float, y: float, heading: float
     ) -> None:
+        self._heading = heading
         c, s = math.cos(heading), math.sin(heading)
         dx0, dy0, dx1, dy1 = (walls - (x, y, x, y)).T
         self._a = np.column_stack([c * dx0 + s * dy0, c * dy0 - s * dx0])
@@ -85,6 +97,42 @@ class Oblique:
             )
             for start, end in pairwise(places)
         )
+
+    def end_of(self, primitive: Primitive, half_width: float) -> tuple[float, Reason]:
+        """Return how far a `Move` or an `Approach` goes, and why it ends there.
+
+        Raises
+        ------
+        WorldError
+            If the primitive is another one or goes backward, or never ends.
+        """
+        if not isinstance(primitive, (Move, Approach)) or (
+            primitive.direction is Direction.BACKWARD
+        ):
+            raise WorldError(
+                "heading",
+                f"a {type(primitive).__name__} needs a heading along a wall; got "
+                f"{math.degrees(self._heading):g} degrees",
+            )
+        ahead = self.ahead(half_width)
+        room = max(0.0, ahead - primitive.keep)
+        seen, limit = math.inf, math.inf
+        if isinstance(primitive, Move):
+            limit = primitive.distance
+        else:
+            limit = primitive.limit
+            for sensor in primitive.sensors:
+                if sensor is Sensor.FRONT:
+                    seen = min(seen, max(0.0, ahead - primitive.within))
+                else:
+                    side = Side.LEFT if sensor is Sensor.LEFT else Side.RIGHT
+                    seen = min(seen, self.until_beside(side, primitive.within))
+        way = min(room, seen, limit)
+        if math.isinf(way):
+            raise WorldError("start", "no wall comes in sight: is the start inside?")
+        if room < min(seen, limit) - EPS:
+            return way, Reason.BLOCKED
+        return way, Reason.SEEN if seen <= limit else Reason.DONE
 
     def readings(self, half_width: float) -> Readings:
         """Return what the three sensors read."""

@@ -15,7 +15,7 @@ from behaviours.vertices import VertexType
 from tests.incursions.scenes import random_world, true_landing
 from topomap.incursions.crossing import cross, face, square_up
 from topomap.incursions.errors import Drift
-from topomap.routes.steps import land
+from topomap.routes.landing import land
 from worlds.errors import WorldError
 from worlds.ideal import IdealBody
 from worlds.oblique import Oblique, wall_segments

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from behaviours.automaton import UnforeseenError
 from behaviours.port import run
 from topomap.errors import InputError, JobError
-from topomap.incursions.active import Exploration, explore_space, finished
+from topomap.incursions.active import Exploration, explore_space
 from topomap.incursions.candidates import Options
+from topomap.incursions.keeping import finished
 from topomap.incursions.passive import add_passive
 from topomap.parts import islands
 from topomap.routes.journey import Journey

@@ -24,7 +24,8 @@ from topomap.incursions.localising import (
     likeliest,
     repeated,
 )
-from topomap.routes.steps import Arrival, follow_on, land, next_direction
+from topomap.routes.landing import land
+from topomap.routes.steps import Arrival, follow_on, next_direction
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -16,8 +16,9 @@ from topomap.incursions.layout import Layout, lay_out
 from topomap.incursions.localising import believe, likeliest
 from topomap.incursions.locating import Found, NewLoop, locate
 from topomap.incursions.sureness import wall_of, with_sureness
+from topomap.routes.landing import land
 from topomap.routes.planning import Route, Step, plan_route
-from topomap.routes.steps import land, walk_wall
+from topomap.routes.steps import walk_wall
 
 if TYPE_CHECKING:
     from behaviours.port import Behaviour

@@ -12,7 +12,7 @@ from behaviours.follow_wall import follow_wall
 from behaviours.mirror import mirrored
 from behaviours.port import Side
 from behaviours.vertices import VertexType
-from topomap.incursions.crossing import axis_near, cross, face, square_up
+from topomap.incursions.crossing import face
 from topomap.topological_map import same_direction
 
 if TYPE_CHECKING:
@@ -22,19 +22,17 @@ if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from behaviours.port import Behaviour
     from topomap.incursions.crossing import Crossing
-    from topomap.incursions.errors import Drift
     from topomap.topological_map import Edge
 
 __all__ = [
     "Arrival",
     "follow_on",
-    "land",
     "next_direction",
-    "tries_at",
     "walk_wall",
 ]
 
 RIGHT_ANGLE = math.pi / 2
+"""In radians."""
 JOGS = 4
 """A wall may have so many corners that the map does not know."""
 SLIP = 0.05
@@ -181,105 +179,3 @@ def next_direction(arrival: Arrival) -> float:
     """Return where the wall runs on from the corner that a robot came to."""
     turn = RIGHT_ANGLE if arrival.corner is VertexType.INT else -RIGHT_ANGLE
     return arrival.heading + (turn if arrival.side is Side.RIGHT else -turn)
-
-
-def tries_at(
-    phi: float, readings_left: float, readings_right: float, r0: float
-) -> list[tuple[float, Side]]:
-    """Return how a robot that met an unknown wall can stand with it on its right.
-
-    Parameters
-    ----------
-    phi : float
-        Its heading, in radians in the map's frame.
-    readings_left, readings_right : float
-        What its sides see, in metres.
-    r0 : float
-        The robot's offset, in metres.
-
-    Returns
-    -------
-    list of (heading, side)
-        The wall ahead first, unless a wall is seen close on the side to which the
-        heading leans.
-    """
-    ahead = axis_near(phi)
-    slant = math.remainder(phi - ahead, math.tau)
-    aside = ahead + math.copysign(RIGHT_ANGLE, slant)
-    tries = [(ahead + RIGHT_ANGLE, Side.RIGHT), (aside + RIGHT_ANGLE, Side.RIGHT)]
-    near = readings_left if slant > 0 else readings_right
-    return tries[::-1] if near < 1.2 * r0 else tries
-
-
-def land(
-    parameters: Parameters,
-    heading: float,
-    phi: float,
-    reach: float,
-    drift: Drift,
-    expected: tuple[float, Side] | None,
-    least: float,
-) -> Behaviour[Arrival]:
-    """Cross open space, and follow the wall that is met to its corner.
-
-    Parameters
-    ----------
-    parameters : Parameters
-        The lengths the robot keeps.
-    heading : float
-        Of the robot, in radians in the map's frame.
-    phi : float
-        Where to cross to, in radians in the map's frame.
-    reach : float
-        How far the wall is thought to be, in metres.
-    drift : Drift
-        Errors of the robot.
-    expected : (heading, side) or None
-        How to follow the wall that is thought to be there.
-    least : float
-        A wall met before so many metres by the odometer is another one: it is
-        followed with the wall on the right.
-
-    Returns
-    -------
-    Behaviour
-        Returns the `Arrival` at a corner; its corner is None where no wall was
-        found beside the robot.
-    """
-    yield from face(heading, phi)
-    slant = 0.0
-    if expected is not None:
-        along, side = expected
-        normal = along + (-RIGHT_ANGLE if side is Side.RIGHT else RIGHT_ANGLE)
-        slant = math.remainder(phi - normal, math.tau)
-        if abs(slant) > RIGHT_ANGLE:
-            slant = 0.0
-    crossing = yield from cross(parameters, reach, slant)
-    seen = crossing.readings
-    tries = tries_at(phi, seen.left, seen.right, parameters.r0)
-    if expected is not None and crossing.distance >= least:
-        tries = [expected, *tries]
-    squared = yield from square_up(parameters, phi, tries)
-    ahead = np.array([math.cos(phi), math.sin(phi)])
-    aside = np.array([-ahead[1], ahead[0]])
-    turned = abs(math.remainder(phi - heading, math.tau))
-    own = drift.aside(crossing.distance, turned)
-    spread = (drift.sigma * crossing.distance) ** 2 * np.outer(ahead, ahead)
-    spread = spread + own**2 * np.outer(aside, aside) + SLIP**2 * np.eye(2)
-    way = crossing.distance * ahead
-    if squared is None:
-        heading = tries[-1][0]
-        return Arrival(None, heading, Side.RIGHT, way, spread, 0.0, None, crossing)
-    along_ = np.array([math.cos(squared.heading), math.sin(squared.heading)])
-    left = np.array([-along_[1], along_[0]])
-    way = way + squared.shift * left + squared.advance * along_
-    last = yield from follow_on(
-        parameters, None, squared.heading, squared.heading, squared.side, drift.sigma
-    )
-    return replace(
-        last,
-        way=way + last.way,
-        spread=spread + last.spread,
-        length=last.length + squared.advance,
-        crossing=crossing,
-    )
