@@ -95,6 +95,22 @@ field target_format '"world"'
 expect 0 doctor --json
 expect 0 --show-completion bash
 
+# Islands and routes.
+expect 0 world make random --corners 8 --islands 1 --seed 5 -o island.json
+expect 0 build island.json -o better.json --improve active --sigma 0.02 --json
+field correct true
+field islands 1
+expect 0 compare better.json --world island.json --json
+field correct true
+for body in ideal physical; do
+    expect 0 route better.json 0 9 --world island.json --body "$body" --json
+    field arrived true
+done
+expect 2 route better.json 0 999
+one_line target
+expect 3 route better.json 0 1 --world l.json
+one_line "not that of the world"
+
 # Bad input: exit code 2, one line that names the file and what is wrong.
 expect 2 build nowhere.json -o map.json
 one_line nowhere.json

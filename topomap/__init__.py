@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from topomap.files.world_files import load_world, save_world
     from topomap.mapping import Build, build_map
     from topomap.merging import merge_maps
+    from topomap.routes.planning import plan_route
     from topomap.topological_map import TopologicalMap
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "load_map",
     "load_world",
     "merge_maps",
+    "plan_route",
     "save_map",
     "save_world",
 ]
@@ -38,6 +40,7 @@ _HOME = {
     "load_map": "topomap.files.map_files",
     "load_world": "topomap.files.world_files",
     "merge_maps": "topomap.merging",
+    "plan_route": "topomap.routes.planning",
     "save_map": "topomap.files.map_files",
     "save_world": "topomap.files.world_files",
 }

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from behaviours.automaton import UnforeseenError
 from behaviours.port import run
 from behaviours.vertices import VertexType
-from topomap.bodies import body_parameters, make_body
+from topomap.bodies import body_drift, body_parameters, make_body
 from topomap.boundary import Walk, map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
@@ -18,6 +18,8 @@ from topomap.embedding import embedded
 from topomap.errors import InputError, JobError
 from topomap.explore import explore_halls
 from topomap.folding import fold
+from topomap.incursions.improving import IMPROVEMENTS, Improvement, improve_map
+from topomap.parts import compare_wholes, in_one
 from topomap.truth import true_maps
 from worlds.fit import is_open
 from worlds.starts import check_start, choose_start
@@ -47,11 +49,11 @@ class Build:
     """A map that a robot built, and what it took."""
 
     map: TopologicalMap
-    """Of the closed loop; of the open walk where no closure was found."""
+    """Of the closed loop, improved; of the open walk where no closure was found."""
     closed: bool
     """Whether the robot decided that it had come round."""
     comparison: Comparison
-    """With the world's truth."""
+    """With the world's truth: of one loop; of all loops with active incursions."""
     loops: tuple[Walk, ...]
     """Every base loop as it was walked, and what was made of each wall."""
     recognitions: tuple[Recognition, ...]
@@ -66,6 +68,8 @@ class Build:
     """Time in the robot's world, in seconds."""
     collisions: int
     """How often the body began to touch something."""
+    improvement: Improvement | None = None
+    """What was done to the base map; None where its loop stayed open."""
 
     @property
     def correct(self) -> bool:
@@ -123,6 +127,7 @@ def build_map(
     closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
     watch: Callable[[Body], Body] | None = None,
+    improve: str = "none",
 ) -> Build:
     """Set a robot down in a world and let it map all it can reach along walls.
 
@@ -150,6 +155,9 @@ def build_map(
     watch : callable, optional
         Given the body before it moves; what it returns is used in its place. So a
         recorder can look on, as `topomap.page.BuildRecorder` does.
+    improve : {"none", "passive", "active"}
+        What is done to the closed base map: incursions through space that was seen,
+        or driven ones too, which find the islands; see `topomap.incursions`.
 
     Returns
     -------
@@ -183,6 +191,8 @@ def build_map(
     """
     if not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
         raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
+    if improve not in IMPROVEMENTS:
+        raise InputError("", "improve", improve, f"one of {', '.join(IMPROVEMENTS)}")
     if max_walls < 1:
         raise InputError("", "max_walls", max_walls, "a number of at least 1")
     start_rng, body_rng = rng.spawn(2)
@@ -197,17 +207,37 @@ def build_map(
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )
-    explore = _explore_open if is_open(world, parameters) else _explore_halls
+    has_halls = not is_open(world, parameters)
+    if has_halls and improve != "none":
+        expected = "none: incursions are for worlds without halls"
+        raise InputError("", "improve", improve, expected)
+    explore = _explore_halls if has_halls else _explore_open
     try:
         found = explore(robot, closer, sigma, max_walls)
     except UnforeseenError as error:
         raise JobError(str(error)) from error
+    improvement = None
+    if found["closed"] and not has_halls:
+        (walk,) = found["loops"]
+        name = closing if isinstance(closing, str) else "likelihood"
+        improvement = improve_map(
+            found["map"],
+            improve,
+            body_drift(body, sigma),
+            body=robot,
+            vertex=len(walk.legs) % walk.period,
+            make_closer=lambda: make_closer(name, sigma, parameters),
+        )
+        found["map"] = improvement.map
     return Build(
-        comparison=compare_maps(found["map"], *truth),
+        comparison=compare_wholes(found["map"], in_one(truth))
+        if improve == "active"
+        else compare_maps(found["map"], *truth),
         start=start,
         travelled=robot.travelled,
         simulated=robot.clock,
         collisions=robot.collisions,
+        improvement=improvement,
         **found,
     )
 

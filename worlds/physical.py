@@ -31,6 +31,7 @@ from worlds.following import follow
 from worlds.halls import centre, follow_hall
 from worlds.robot import Robot
 from worlds.straight import Control, approach, go, move, stop
+from worlds.sweeping import pieces
 from worlds.turning import align, turn
 
 if TYPE_CHECKING:
@@ -185,6 +186,7 @@ class PhysicalBody:
             robot.edge_behind = None
         self._control = _controller(primitive)(robot, primitive)
         self._start = robot.odometer
+        robot.sweep.clear()
         self._since = self.arena.ticks
         self._is_recoiling = False
 
@@ -221,8 +223,10 @@ class PhysicalBody:
     def _end(self, outcome: Outcome) -> Outcome:
         """Let go of the primitive."""
         self._control = None
-        self._robot.drive(0.0, 0.0)
-        return outcome
+        robot = self._robot
+        robot.drive(0.0, 0.0)
+        swept = pieces(robot.sweep, self._start, robot.odometer)
+        return replace(outcome, swept=swept)
 
     def _recoil(self) -> Control[Outcome]:
         """Go back from what was touched; it is STUCK if that does not help."""

@@ -66,6 +66,8 @@ class Robot:
         """Whether the rangers answered anew at this tick."""
         self.trace: deque[tuple[float, float, float, float]] = deque(maxlen=MEMORY)
         """Odometer, turning, left and right at each answer on this leg."""
+        self.sweep: list[tuple[float, float, float]] = []
+        """Place abeam, left and right at each answer of the present primitive."""
         self.edge_behind: float | None = None
         """How far behind the wall to follow next is known to end, in metres."""
         self.stepped_to: float | None = None
@@ -235,6 +237,8 @@ class Robot:
         eyes.look(self.disc.x, self.disc.y, self.disc.angle)
         self.left, self.right = eyes.left, eyes.right
         self.trace.append((self.odometer, self.turned, eyes.left, eyes.right))
+        abeam = self.odometer + self.side_lead
+        self.sweep.append((abeam, eyes.left, eyes.right))
         gap = eyes.front - self.ahead
         if math.isnan(gap):
             return

@@ -15,6 +15,7 @@ from topomap.cli.doctor import doctor
 from topomap.cli.explore_grid import explore_grid
 from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
+from topomap.cli.route import route
 from topomap.cli.show import show
 from topomap.cli.world import app as world
 
@@ -29,6 +30,7 @@ app.command()(demo)
 app.add_typer(world, name="world")
 app.command()(build)
 app.command()(compare)
+app.command()(route)
 app.command()(merge)
 app.command()(show)
 app.command()(convert)

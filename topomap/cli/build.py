@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -33,6 +34,9 @@ def build(
     closing: Annotated[
         str, typer.Option(help="What decides that the loop is closed.")
     ] = "likelihood",
+    improve: Annotated[
+        str, typer.Option(help="Add incursions: none, passive or active.")
+    ] = "none",
     max_walls: Annotated[
         int, typer.Option(help="Give the loop up as open after so many walls.")
     ] = 5000,
@@ -82,6 +86,7 @@ def build(
             closing=closer if recorder is None else recorder.listen(closer),
             max_walls=max_walls,
             watch=None if recorder is None else recorder.watch,
+            improve=improve,
         )
     elapsed = time.perf_counter() - began
     if plot is not None:
@@ -98,17 +103,27 @@ def build(
         raise JobError(f"no closure found after {built.walls} walls: {built.reason}")
     if not as_json:
         say(_sentence(built, output))
+    if built.improvement is not None and built.improvement.failure:
+        raise JobError(
+            "the map was not improved to the end, and is saved as far as it went: "
+            f"{built.improvement.failure}"
+        )
 
 
 def summary(built: Build, elapsed: float) -> dict[str, Any]:
     """Return what `build --json` prints."""
     rmse = built.comparison.position_rmse
+    better = built.improvement
+    kinds = Counter(edge.kind for edge in built.map.edges)
     return {
         "closed": built.closed,
         "correct": built.correct,
         "vertices": len(built.map.vertices),
         "edges": len(built.map.edges),
-        "islands": 0,
+        "islands": better.islands if better else 0,
+        "passive_incursions": kinds["passive"],
+        "active_incursions": kinds["active"],
+        "improving_m": round(better.travelled, 3) if better else 0.0,
         "unexplored_exits": built.map.unexplored_exits,
         "travelled_m": round(built.travelled, 3),
         "simulated_s": round(built.simulated, 3),
@@ -159,6 +174,6 @@ def _sentence(built: Build, output: Path) -> str:
     verdict = "correct" if built.correct else "WRONG"
     return (
         f"{output}: {len(built.map.vertices)} vertices, closed after "
-        f"{built.walls} walls and {built.travelled:.1f} m; {verdict} against "
+        f"{built.walls} walls, {built.travelled:.1f} m in all; {verdict} against "
         f"the world's truth"
     )
