@@ -35,7 +35,7 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
     keep = primitive.keep if primitive.keep > 0 else -math.inf
     end = start + primitive.limit
     reason = Reason.DONE
-    while search.place is None and search.last < end + search.margin:
+    while not search.is_over(end):
         if robot.ahead - keep <= NEAR:
             reason = Reason.BLOCKED
             break
@@ -108,6 +108,14 @@ class _Search:
     def last(self) -> float:
         """Where the last glance looked, in metres of the odometer."""
         return self._glances[-1].place if self._glances else -math.inf
+
+    def is_over(self, end: float) -> bool:
+        """Return whether enough was seen to tell what is up to some place."""
+        if self.place is None:
+            return self.last >= end + self.margin
+        # What is behind a wall's end shows farther on.
+        beyond = 2 * self.robot.slide if self._until is Until.LOST else 0.0
+        return self.last >= self.place + beyond
 
     def update(self) -> None:
         """Take in the newest glance."""
