@@ -83,7 +83,12 @@ def explore_halls(
     """
     found = Exploration(parameters, make_closer, sigma, max_walls)
     yield from move_to_wall(parameters)
-    arrival = yield from follow_broken_wall(parameters, None)
+    first = yield from follow_broken_wall(parameters, None)
+    # A robot that met the wall at an opening knows its heading, and where it is, no
+    # better than that; after a whole wall it does. So the map begins a vertex later.
+    ways = turned(first.ways, first.facing)
+    onward = ways.index(Way.WALL_RIGHT)
+    arrival = yield from travel(parameters, first.type, ways, onward)
     found.here = found.chart.add_place(Place(arrival.type, arrival.ways))
     found.heading = arrival.facing
     yield from _close_loop(found)

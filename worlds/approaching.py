@@ -30,7 +30,7 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
     if primitive.limit <= NEAR:
         reason = AWAITED[primitive.until] if search.holds_here() else Reason.DONE
         return Outcome(0.0, reason, robot.readings())
-    if search.place is not None and primitive.until is Until.LOST:
+    if search.place is not None:
         yield from _look_back(robot, search)
     keep = primitive.keep if primitive.keep > 0 else -math.inf
     end = start + primitive.limit
@@ -45,6 +45,7 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
         if robot.is_fresh:
             search.update()
     yield from stop(robot)
+    robot.seed = None  # what was ahead before a turn has served, or is behind
     goal = end if reason is Reason.DONE else math.inf
     if search.place is not None and search.place <= end:
         goal, reason = search.place, AWAITED[primitive.until]
