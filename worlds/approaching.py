@@ -114,9 +114,9 @@ class _Search:
         """Return whether enough was seen to tell what is up to some place."""
         if self.place is None:
             return self.last >= end + self.margin
-        # What is behind a wall's end shows farther on.
-        beyond = 2 * self.robot.slide if self._until is Until.LOST else 0.0
-        return self.last >= self.place + beyond
+        # What is on the far side of an edge shows a little farther on.
+        is_end = self._until is Until.LOST
+        return self.last >= self.place + (2 if is_end else 1) * self.robot.slide
 
     def update(self) -> None:
         """Take in the newest glance."""
