@@ -5,11 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
-from behaviours.port import Align, Follow, Primitive, Reason, Turn
+from behaviours.port import Align, Approach, Follow, Primitive, Reason, Sensor, Turn
 
 __all__ = ["Corners", "Situation", "Step", "mirrored"]
 
 Corners: TypeAlias = tuple[tuple[float, float], ...]
+
+_MIRROR = {
+    Sensor.FRONT: Sensor.FRONT,
+    Sensor.LEFT: Sensor.RIGHT,
+    Sensor.RIGHT: Sensor.LEFT,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +62,9 @@ def _mirrored_step(step: Step) -> Step:
     primitive = step.primitive
     if isinstance(primitive, (Turn, Align, Follow)):
         primitive = replace(primitive, side=primitive.side.opposite)
+    if isinstance(primitive, Approach):
+        sensors = tuple(_MIRROR[sensor] for sensor in primitive.sensors)
+        primitive = replace(primitive, sensors=sensors)
     shift = None if step.shift is None else -step.shift
     return replace(
         step, primitive=primitive, left=step.right, right=step.left, shift=shift

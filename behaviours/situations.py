@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 
+from behaviours.hall_situations import hall_situations
 from behaviours.parameters import Parameters
 from behaviours.port import (
     Align,
@@ -47,7 +48,7 @@ def situations(parameters: Parameters) -> tuple[Situation, ...]:
     ahead = _straight_on(parameters)
     along = _along_a_wall(parameters)
     on_the_left = [mirrored(s) for s in along if s.name.startswith("follow to")]
-    return (*ahead, *along, *on_the_left)
+    return (*ahead, *along, *on_the_left, *hall_situations(parameters))
 
 
 def _straight_on(p: Parameters) -> list[Situation]:

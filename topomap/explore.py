@@ -100,7 +100,7 @@ def explore_halls(
     actions: Actions[State] = {
         State.LOOK: lambda _: _is_in_hall(parameters),
         State.MTW: lambda _: move_to_wall(parameters),
-        State.WF: lambda _: _begin(found, follow_broken_wall(parameters, None)),
+        State.WF: lambda _: _begin(found, _second_vertex(parameters)),
         State.HF: lambda _: _begin(found, follow_hall(parameters)),
         State.LOOP: lambda _: _close_loop(found),
         State.GOTO: lambda _: _goto_exit(found),
@@ -115,6 +115,18 @@ def _is_in_hall(parameters: Parameters) -> Behaviour[bool]:
     """Go forward until a wall is in range; return whether a hall is around."""
     outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
     return outcome.readings.left + outcome.readings.right <= 2 * parameters.r0
+
+
+def _second_vertex(parameters: Parameters) -> Behaviour[Arrival]:
+    """Follow the wall to the vertex after the first.
+
+    A robot that met the wall at an opening knows its heading, and where it is, no
+    better than that; after a whole wall it does. So the map begins a vertex later.
+    """
+    first = yield from follow_broken_wall(parameters, None)
+    ways = turned(first.ways, first.facing)
+    onward = ways.index(Way.WALL_RIGHT)
+    return (yield from travel(parameters, first.type, ways, onward))
 
 
 def _begin(found: Exploration, behaviour: Behaviour[Arrival]) -> Behaviour[None]:

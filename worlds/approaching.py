@@ -30,12 +30,12 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
     if primitive.limit <= NEAR:
         reason = AWAITED[primitive.until] if search.holds_here() else Reason.DONE
         return Outcome(0.0, reason, robot.readings())
-    if search.place is not None and primitive.until is Until.LOST:
+    if search.place is not None:
         yield from _look_back(robot, search)
     keep = primitive.keep if primitive.keep > 0 else -math.inf
     end = start + primitive.limit
     reason = Reason.DONE
-    while search.place is None and search.last < end + search.margin:
+    while not search.is_over(end):
         if robot.ahead - keep <= NEAR:
             reason = Reason.BLOCKED
             break
@@ -45,6 +45,9 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
         if robot.is_fresh:
             search.update()
     yield from stop(robot)
+    if search.place is None and search.is_even:
+        search.recount(is_over=True)
+    robot.seed = None  # what was ahead before a turn has served, or is behind
     goal = end if reason is Reason.DONE else math.inf
     if search.place is not None and search.place <= end:
         goal, reason = search.place, AWAITED[primitive.until]
@@ -109,6 +112,14 @@ class _Search:
         """Where the last glance looked, in metres of the odometer."""
         return self._glances[-1].place if self._glances else -math.inf
 
+    def is_over(self, end: float) -> bool:
+        """Return whether enough was seen to tell what is up to some place."""
+        if self.place is None:
+            return self.last >= end + self.margin
+        # What is on the far side of an edge shows a little farther on.
+        is_end = self._until is Until.LOST
+        return self.last >= self.place + (2 if is_end else 1) * self.robot.slide
+
     def update(self) -> None:
         """Take in the newest glance."""
         glance = self.robot.glance()
@@ -121,14 +132,25 @@ class _Search:
             self._glances.append(glance)
         self.recount()
 
-    def recount(self) -> None:
+    def recount(self, *, is_over: bool = False) -> None:
         """Look for the edge in all that was seen."""
         self.place = None
         hits = [self._holds(glance) for glance in self._glances]
-        for k in range(len(hits) - CONFIRM + 1):
+        lead = next((k for k, hit in enumerate(hits) if not hit), len(hits))
+        since = 0
+        if self._until is Until.SEEN and lead and not is_over:
+            # What ends at once is the end of the wall that the robot has left.
+            lasts = self._glances[lead - 1].place - self._glances[0].place
+            since = 0 if lasts >= self.robot.slide else lead
+        for k in range(since, len(hits) - CONFIRM + 1):
             if all(hits[k : k + CONFIRM]):
                 self.place = self.start if k == 0 else self._edge(k)
                 return
+
+    @property
+    def is_even(self) -> bool:
+        """Whether what was looked for held all along."""
+        return all(map(self._holds, self._glances))
 
     def holds_here(self) -> bool:
         """Return whether what was looked for holds where the robot stands."""

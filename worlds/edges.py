@@ -74,7 +74,11 @@ def edge(
     >>> round(edge(places, ranges, 2, spot=0.05, slide=0.04, like=0.03), 3)
     0.03
     """
-    near = sorted(ranges[k + 1 : k + 1 + CONFIRM] or ranges[k:])
+    # Beyond its own width the spot lies wholly on the wall.
+    whole = abs(2.2 * spot * ranges[k])
+    after = list(zip(places[k:], ranges[k:], strict=True))
+    on = [reach for place, reach in after if abs(place - places[k]) >= whole]
+    near = sorted((on or ranges[k + 1 :] or ranges[k:])[:CONFIRM])
     wall = near[len(near) // 2]
     gaps = [abs(place - places[k]) for place in places[:k]]
     behind = sorted(

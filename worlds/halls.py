@@ -25,7 +25,7 @@ DOUBT = 0.3
 """Most that a heading may be in doubt, in radians, to follow."""
 
 
-def centre(robot: Robot, _primitive: Centre) -> Control[Outcome]:
+def centre(robot: Robot, _: Centre) -> Control[Outcome]:
     """Stand in the middle of the hall.
 
     The robot turns, goes sideways by what it is off, and turns back: no way along
@@ -89,7 +89,7 @@ def _mean(robot: Robot) -> Control[tuple[float, float]]:
     return left / LOOKS, right / LOOKS
 
 
-def follow_hall(robot: Robot, _primitive: Follow) -> Control[Outcome]:
+def follow_hall(robot: Robot, _: Follow) -> Control[Outcome]:
     """Follow both walls, in their middle, until something changes."""
     parameters = robot.parameters
     yield from settle(robot)

@@ -8,31 +8,21 @@ controllers at a fixed time step.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from behaviours.port import (
     Align,
-    Approach,
-    Centre,
-    Direction,
     Follow,
-    Guide,
-    Move,
     Outcome,
     Primitive,
     Reason,
-    Sensor,
     Turn,
 )
-from worlds.approaching import approach_aside
-from worlds.following import follow
-from worlds.halls import centre, follow_hall
+from worlds.controllers import controller_of, way_of
 from worlds.robot import Robot
-from worlds.straight import Control, approach, go, move, stop
+from worlds.straight import Control, go, stop
 from worlds.sweeping import pieces
-from worlds.turning import align, turn
 
 if TYPE_CHECKING:
     import numpy as np
@@ -44,12 +34,6 @@ if TYPE_CHECKING:
 
 __all__ = ["PhysicalBody"]
 
-CONTROLLERS: Mapping[type, Callable[[Robot, Any], Control[Outcome]]] = {
-    Move: move,
-    Turn: turn,
-    Align: align,
-    Centre: centre,
-}
 PATIENCE = 1800.0
 """Seconds after which a primitive that has not ended is stuck."""
 BUMPS = 3
@@ -182,9 +166,9 @@ class PhysicalBody:
         robot = self._robot
         if not isinstance(primitive, Align):
             robot.stepped_to = None
-        if not (isinstance(primitive, (Turn, Follow)) or _way(primitive) == 0):
+        if not (isinstance(primitive, (Turn, Follow)) or way_of(primitive) == 0):
             robot.edge_behind = None
-        self._control = _controller(primitive)(robot, primitive)
+        self._control = controller_of(primitive)(robot, primitive)
         self._start = robot.odometer
         robot.sweep.clear()
         self._since = self.arena.ticks
@@ -244,28 +228,3 @@ class PhysicalBody:
     def _outcome(self, reason: Reason) -> Outcome:
         distance = max(self._robot.odometer - self._start, 0.0)
         return Outcome(distance, reason, self._robot.readings())
-
-
-def _controller(primitive: Primitive) -> Callable[[Robot, Any], Control[Outcome]]:
-    """Return what carries out a primitive."""
-    match primitive:
-        case Follow(Guide.HALL):
-            return follow_hall
-        case Follow():
-            return follow
-        case Approach(sensors, direction=direction):
-            is_aside = Sensor.FRONT not in sensors and direction is Direction.FORWARD
-            return approach_aside if is_aside else approach
-        case _:
-            return CONTROLLERS[type(primitive)]
-
-
-def _way(primitive: Primitive) -> float:
-    """Return the farthest that a primitive may lead the robot away."""
-    match primitive:
-        case Move(distance):
-            return distance
-        case Approach():
-            return primitive.limit
-        case _:
-            return math.inf

@@ -29,7 +29,7 @@ BATCH = 256
 """Errors are drawn for so many time steps at once."""
 MEMORY = 192
 """Side readings that the robot keeps of the present leg."""
-STAND = 1 / 30
+STAND = 1 / 20
 """How far from where it wants to be a robot may stand, in parts of r0."""
 AGREE = 1 / 6
 """Ranges ahead that differ by more, in parts of r0, are of different things."""
@@ -81,7 +81,7 @@ class Robot:
         """Half the width of a side ranger's spot of light, in parts of its range."""
         self.slide = self.spot * (abs(side.y) + side.far)
         """Farthest, in metres, from a wall's edge that its end face is seen."""
-        self.margin = self.spot * self.parameters.r0 + STAND * self.parameters.r0
+        self.margin = self.spot * self.parameters.r_max + STAND * self.parameters.r0
         """How far ahead of an edge that is abeam what follows is seen, in metres."""
         self.seed: Glance | None = None
         """What was ahead before the last turn, and so beside after it."""
