@@ -17,11 +17,17 @@ from topomap.experiments.running import run_experiment
 
 
 @pytest.mark.parametrize("name", ["stable", "deciding", "trees"])
-def test_a_batch_gives_times_of_every_allocator(name):
+def test_a_batch_gives_times_of_every_allocator(name, monkeypatch):
     experiment = find(f"exploring-{name}")
     if name == "deciding":
         cell = {"world": "stable", "robots": 2, "observe": 1, "decide": 4}
         experiment = replace(experiment, cells=(cell,))
+    if name == "trees":
+        experiment = replace(experiment, cells=({"world": "tree", "robots": 3},))
+        whole = exploring.maze
+        monkeypatch.setattr(
+            exploring, "maze", lambda rng, _, **how: whole(rng, 17, **how)
+        )
     (task, *_) = tasks_of(experiment, 1, seed=0)
     tallies = run_task(experiment, task)
     assert tallies["trials"] == 1
