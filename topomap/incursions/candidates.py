@@ -40,6 +40,8 @@ class Options:
     """How many standard deviations the landing keeps from the bounds of its wall."""
     gain: float = 0.05
     """Least part of the way between its ends that an incursion must save."""
+    allowance: float = 1.0
+    """How much of the room for ill-defined corners and the robot's width is kept."""
 
     def __post_init__(self) -> None:
         if not 0 < self.confidence < math.inf:
@@ -116,10 +118,10 @@ def candidates(
     options = options or Options()
     if not len(layout.edges):
         return []
-    robot, drift = layout.parameters, options.drift
+    robot, drift, part = layout.parameters, options.drift, options.allowance
     sizes = np.array(
         [
-            *(robot.r0, robot.r_min, robot.least_recess, robot.least_jut),
+            *(robot.r0, robot.r_min, part * robot.least_recess, part * robot.least_jut),
             *(options.confidence, drift.slant(math.pi), drift.bend, drift.stand),
         ]
     )
@@ -129,7 +131,7 @@ def candidates(
         layout.ends,
         layout.along,
         layout.segments,
-        landing_limits(layout),
+        landing_limits(layout, part),
         np.ascontiguousarray(distances * (1.0 - options.gain)),
         sizes,
     )
@@ -145,12 +147,13 @@ def candidates(
     return result
 
 
-def landing_limits(layout: Layout) -> NDArray[np.float64]:
+def landing_limits(layout: Layout, part: float = 1.0) -> NDArray[np.float64]:
     """Return between which places (W, 2) along each wall a robot may land.
 
-    The wall must be beside it over all its width, and no corner nearer than r_min.
+    The wall must be beside it over a `part` of its width, 1 for all, and no corner
+    nearer than that.
     """
-    r_min = layout.parameters.r_min
+    r_min = part * layout.parameters.r_min
     types = [vertex.type for vertex in layout.chart.vertices]
     is_inner = np.array(
         [
