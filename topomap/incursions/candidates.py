@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["Candidate", "Options", "candidates", "edge_of", "landing_limits"]
 
 
+OPEN = VertexType.INT, VertexType.EXT
+"""Corners of open space: halls are too narrow for incursions, [K] 3.6."""
 EXACT = Drift()
 """A robot without errors."""
 
@@ -137,13 +139,15 @@ def candidates(
     )
     rows = np.argwhere(~np.isnan(found[..., 2]))
     lengths = layout.lengths.tolist()
+    is_open = [v.type in OPEN for v in layout.chart.vertices]
     result = []
     for (i, w, end), (s, phi, reach, sure) in zip(
         rows.tolist(), found[tuple(rows.T)].tolist(), strict=True
     ):
         rest = abs((lengths[w] if end else 0.0) - s)
         target = int(layout.ends[w, end])
-        result.append(Candidate(i, w, end, target, s, phi, reach, rest, sure))
+        if is_open[i] and is_open[target]:
+            result.append(Candidate(i, w, end, target, s, phi, reach, rest, sure))
     return result
 
 
