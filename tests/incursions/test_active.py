@@ -35,6 +35,7 @@ def test_without_noise_all_islands_are_found_and_no_edge_meets_one(
     assert built.correct
     assert built.improvement.islands == islands
     assert built.collisions == 0
+    assert np.isfinite(all_distances(built.map)).all()
     walls = shapely.MultiLineString([[*ring, ring[0]] for ring in world.rings])
     for edge in built.map.edges:
         if edge.is_incursion:

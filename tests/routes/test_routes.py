@@ -14,6 +14,7 @@ from topomap.routes.costs import all_distances, cost_of
 from topomap.routes.driving import drive_route, match_world
 from topomap.routes.planning import plan_route
 from topomap.truth import true_map
+from worlds.world import make_world
 
 SEEDS = st.integers(0, 2**32 - 1)
 
@@ -94,8 +95,6 @@ def test_a_robot_on_islands_goes_back_and_forth():
 def test_a_robot_with_a_wrong_map_says_so_or_arrives():
     # The map knows nothing of the island that stands in the middle.
     world, built = improved(2, corners=12, islands=0)
-    from worlds.world import make_world
-
     x, y = np.array(shapely.Polygon(world.outer).representative_point().coords[0])
     side = 0.4
     square = [(x, y), (x + side, y), (x + side, y + side), (x, y + side)]
@@ -145,3 +144,18 @@ def _robot():
 def test_the_route_to_where_one_is_has_no_steps():
     room = true_map([(0, 0), (4, 0), (4, 3), (0, 3)], _robot())
     assert plan_route(room, 2, 2).steps == ()
+
+
+def test_a_hall_is_not_driven_and_said_so():
+    from dataclasses import replace
+
+    room = true_map([(0, 0), (4, 0), (4, 3), (0, 3)], _robot())
+    hall = replace(room.edges[0], behaviour="HF")
+    chart = replace(room, edges=(hall, *room.edges[1:]))
+    world = make_world([(0, 0), (4, 0), (4, 3), (0, 3)])
+    drive = drive_route(match_world(chart, world), 0, 1, np.random.default_rng(0))
+    assert not drive.arrived
+    assert drive.failure == (
+        "the way from vertex 0 to vertex 1 is HF at INT: only walls in open space can "
+        "be driven"
+    )

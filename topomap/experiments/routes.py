@@ -9,6 +9,7 @@ from topomap.errors import JobError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.mapping import build_map
 from topomap.routes.driving import drive_route, match_world
+from topomap.routes.planning import NoWayError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -50,8 +51,12 @@ def random_pairs(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
         count = len(built.map.vertices)
         for _ in range(min(PAIRS, trials - first)):
             a, b = rng.choice(count, 2, replace=False).tolist()
-            drive = drive_route(matched, a, b, rng, body=body, sigma=sigma)
-            total.update(_tallies(drive))
+            try:
+                drive = drive_route(matched, a, b, rng, body=body, sigma=sigma)
+            except NoWayError:
+                total["no way on the map"] += 1
+            else:
+                total.update(_tallies(drive))
     return dict(total)
 
 

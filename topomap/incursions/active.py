@@ -112,8 +112,8 @@ def _tour(survey: _Survey, agenda: Agenda) -> Behaviour[bool]:
     """Drive an agenda until something is not as foretold; return if any was driven."""
     journey, space = survey.journey, agenda.space
     is_driven = False
-    for task, proves in agenda.tasks:
-        if is_needless(journey.layout, task, proves, space):
+    for task, purpose in agenda.tasks:
+        if is_needless(journey.layout, task, purpose, space):
             continue
         is_driven = True
         try:

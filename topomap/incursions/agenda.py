@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from enum import Enum, auto
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Agenda",
     "Crossed",
+    "Purpose",
     "agenda_of",
     "crossed_way",
     "geometry_of",
@@ -44,6 +46,8 @@ CRUMB = 1e-3
 """A way of no length, in metres."""
 LESS_SURE = 2.0, 1.0, 0.3
 """Confidences, in standard deviations, at which a way home is looked for."""
+LESS_ROOM = 0.1
+"""Part of the room at the ends of a wall that is then kept."""
 LEAST_AREA = 1e-3
 """Less hidden space than this, in square metres, hides nothing."""
 
@@ -59,11 +63,22 @@ class Crossed(NamedTuple):
     """What its sides swept, in metres from where it began."""
 
 
+class Purpose(Enum):
+    """What a way is driven for."""
+
+    PROOF = auto()
+    """To prove an incursion that saves much."""
+    SEARCH = auto()
+    """To sweep hidden space."""
+    HOME = auto()
+    """To come back to where the robot came from."""
+
+
 class Agenda(NamedTuple):
     """What is worth driving now."""
 
-    tasks: list[tuple[Edge, bool]]
-    """Ways in the order of a short tour; True for those that prove an incursion."""
+    tasks: list[tuple[Edge, Purpose]]
+    """Ways in the order of a short tour, and what each is good for."""
     space: shapely.Geometry
     """Known space when it was made."""
     unreturnable: set[tuple[int, int]]
@@ -119,8 +134,10 @@ def agenda_of(
     proven = is_swept(found, layout, space, options)
     open_ = [c for c, ok in zip(found, proven, strict=True) if not ok]
     chosen = worth_proving(open_, distances, options)
-    chosen += _ways_home(layout, here, distances, options)
-    proofs = set(chosen)
+    purposes = dict.fromkeys(chosen, Purpose.PROOF)
+    home = _ways_home(layout, here, distances, options)
+    purposes |= dict.fromkeys(home, Purpose.HOME)
+    chosen += home
     chosen += search_targets(layout, space, distances, here, FARTHEST, tried)
     able = []
     given_up: set[tuple[int, int]] = set()
@@ -132,7 +149,11 @@ def agenda_of(
     order = plan_tour(here, [(c.source, c.target) for c in able], distances)
     sigma = options.drift.sigma
     tasks = [
-        (edge_of(able[k], layout, "active", sigma), able[k] in proofs) for k in order
+        (
+            edge_of(able[k], layout, "active", sigma),
+            purposes.get(able[k], Purpose.SEARCH),
+        )
+        for k in order
     ]
     return Agenda(tasks, space, given_up)
 
@@ -149,7 +170,8 @@ def _ways_home(
     if not apart.any():
         return []
     for confidence in (options.confidence, *LESS_SURE):
-        lax = replace(options, confidence=confidence)
+        part = 1.0 if confidence == options.confidence else LESS_ROOM
+        lax = replace(options, confidence=confidence, allowance=part)
         found = [
             c
             for c in candidates(layout, distances, lax)
@@ -161,7 +183,7 @@ def _ways_home(
 
 
 def is_needless(
-    layout: Layout, task: Edge, proves: bool, space: shapely.Geometry
+    layout: Layout, task: Edge, purpose: Purpose, space: shapely.Geometry
 ) -> bool:
     """Tell whether what a way should show has been swept since it was planned.
 
@@ -174,18 +196,21 @@ def is_needless(
         Of the map.
     task : Edge
         The way.
-    proves : bool
-        Whether it shall prove an incursion.
+    purpose : Purpose
+        A way home is never needless.
     space : shapely.Geometry
         Known space.
     """
+    if purpose is Purpose.HOME:
+        return False
     start = layout.positions[layout.index[task.source]]
     ahead = np.array([math.cos(task.source_exit), math.sin(task.source_exit)])
     line = shapely.LineString([start, start + (task.reach or 0.0) * ahead])
     r_min = layout.parameters.r_min
-    width = r_min if proves else SIGHT * FARTHEST
+    is_search = purpose is Purpose.SEARCH
+    width = SIGHT * FARTHEST if is_search else r_min
     hidden = line.buffer(width, cap_style="flat").difference(space)
-    if not proves:
+    if is_search:
         outside = free_space(layout)
         hidden = hidden.intersection(outside) if outside is not None else hidden
         hidden = hidden.buffer(-r_min)

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["Candidate", "Options", "candidates", "edge_of", "landing_limits"]
 
 
+OPEN = VertexType.INT, VertexType.EXT
+"""Corners of open space: halls are too narrow for incursions, [K] 3.6."""
 EXACT = Drift()
 """A robot without errors."""
 
@@ -40,6 +42,8 @@ class Options:
     """How many standard deviations the landing keeps from the bounds of its wall."""
     gain: float = 0.05
     """Least part of the way between its ends that an incursion must save."""
+    allowance: float = 1.0
+    """How much of the room for ill-defined corners and the robot's width is kept."""
 
     def __post_init__(self) -> None:
         if not 0 < self.confidence < math.inf:
@@ -116,10 +120,10 @@ def candidates(
     options = options or Options()
     if not len(layout.edges):
         return []
-    robot, drift = layout.parameters, options.drift
+    robot, drift, part = layout.parameters, options.drift, options.allowance
     sizes = np.array(
         [
-            *(robot.r0, robot.r_min, robot.least_recess, robot.least_jut),
+            *(robot.r0, robot.r_min, part * robot.least_recess, part * robot.least_jut),
             *(options.confidence, drift.slant(math.pi), drift.bend, drift.stand),
         ]
     )
@@ -129,28 +133,31 @@ def candidates(
         layout.ends,
         layout.along,
         layout.segments,
-        landing_limits(layout),
+        landing_limits(layout, part),
         np.ascontiguousarray(distances * (1.0 - options.gain)),
         sizes,
     )
     rows = np.argwhere(~np.isnan(found[..., 2]))
     lengths = layout.lengths.tolist()
+    is_open = [v.type in OPEN for v in layout.chart.vertices]
     result = []
     for (i, w, end), (s, phi, reach, sure) in zip(
         rows.tolist(), found[tuple(rows.T)].tolist(), strict=True
     ):
         rest = abs((lengths[w] if end else 0.0) - s)
         target = int(layout.ends[w, end])
-        result.append(Candidate(i, w, end, target, s, phi, reach, rest, sure))
+        if is_open[i] and is_open[target]:
+            result.append(Candidate(i, w, end, target, s, phi, reach, rest, sure))
     return result
 
 
-def landing_limits(layout: Layout) -> NDArray[np.float64]:
+def landing_limits(layout: Layout, part: float = 1.0) -> NDArray[np.float64]:
     """Return between which places (W, 2) along each wall a robot may land.
 
-    The wall must be beside it over all its width, and no corner nearer than r_min.
+    The wall must be beside it over a `part` of its width, 1 for all, and no corner
+    nearer than that.
     """
-    r_min = layout.parameters.r_min
+    r_min = part * layout.parameters.r_min
     types = [vertex.type for vertex in layout.chart.vertices]
     is_inner = np.array(
         [

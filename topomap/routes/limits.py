@@ -8,12 +8,21 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from behaviours.automaton import UnforeseenError
+from behaviours.port import Side, run
 from topomap.headings import AHEAD, quarter_of
-from topomap.topological_map import same_direction
+from topomap.incursions.candidates import EXACT
+from topomap.incursions.layout import lay_out
+from topomap.incursions.sureness import wall_of
+from topomap.routes.landing import land
+from worlds.errors import WorldError
+from worlds.ideal import IdealBody
+from worlds.pose import Pose
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from topomap.incursions.layout import Layout
     from topomap.routes.driving import Matched
     from topomap.topological_map import Edge
     from worlds.world import World
@@ -22,8 +31,8 @@ __all__ = ["shortest_ways", "true_lengths"]
 
 ROUND = 2
 """Chords for a quarter of the circle around a corner."""
-JOG = 0.25
-"""By so much may a wall with ill-defined corners be off its line, in metres."""
+NEAR = 0.05
+"""An exact robot comes so near to a vertex, in metres."""
 
 
 def shortest_ways(
@@ -83,9 +92,9 @@ def shortest_ways(
 def true_lengths(matched: Matched) -> list[float | None]:
     """Find how long each edge of a map truly is; None where it does not lead there.
 
-    An incursion is followed from the true place of its source, straight on in its
-    direction: it is false where the robot's width meets anything before the wall at
-    its target, or misses that wall.
+    An incursion is false where an exact robot that takes it from the true place of
+    its source does not come to its target: something is in the way, or it misses
+    the wall.
 
     Parameters
     ----------
@@ -99,26 +108,16 @@ def true_lengths(matched: Matched) -> list[float | None]:
     """
     places = {v.id: np.array(v.position) for v in matched.truth.vertices}
     turn = quarter_of(matched.comparison.rotation or 0.0) * math.pi / 2
-    walls = shapely.STRtree(_walls(matched.world))
-    return [
-        _true_length(matched, edge, places, turn, walls) for edge in matched.chart.edges
-    ]
-
-
-def _walls(world: World) -> list[shapely.LineString]:
-    return [
-        shapely.LineString([ring[k - 1], ring[k]])
-        for ring in world.rings
-        for k in range(len(ring))
-    ]
+    layout = lay_out(matched.chart)
+    return [_true_length(matched, layout, e, places, turn) for e in matched.chart.edges]
 
 
 def _true_length(
     matched: Matched,
+    layout: Layout,
     edge: Edge,
     places: dict[int, NDArray[np.float64]],
     turn: float,
-    walls: shapely.STRtree,
 ) -> float | None:
     if edge.source not in matched.pairs or edge.target not in matched.pairs:
         return None
@@ -126,62 +125,21 @@ def _true_length(
     if edge.reach is None:
         way = goal - start
         return float(abs(way @ AHEAD[quarter_of(edge.source_exit + turn)]))
-    back = quarter_of(edge.target_exit + turn)
-    wall = next(
-        (
-            e
-            for e in matched.truth.edges
-            for end, exit_ in ((e.source, e.source_exit), (e.target, e.target_exit))
-            if end == matched.pairs[edge.target]
-            and same_direction(exit_, back * math.pi / 2)
-        ),
-        None,
-    )
-    if wall is None:
-        return None
-    r0, r_min = matched.chart.parameters.r0, matched.chart.parameters.r_min  # type: ignore[union-attr]
+    rng = np.random.default_rng(0)  # an exact body draws nothing that matters
+    robot = IdealBody(matched.world, Pose(*start.tolist()), layout.parameters, rng)
+    _, end = wall_of(layout, edge)
+    along = edge.target_exit + turn + math.pi
+    side = Side.RIGHT if end else Side.LEFT
     phi = edge.source_exit + turn
-    ahead = np.array([math.cos(phi), math.sin(phi)])
-    met = _free_way(start, ahead, r_min, walls)
-    along = np.array(AHEAD[quarter_of(wall.source_exit)], dtype=float)
-    inward = np.array([along[1], -along[0]])
-    steep = float(ahead @ inward)
-    if steep <= 0.1:
+    try:
+        run(
+            land(
+                *(layout.parameters, 0.0, phi, edge.reach),
+                *(EXACT, (along, side), 0.0),
+            ),
+            robot,
+        )
+    except (UnforeseenError, WorldError):
         return None
-    a = places[wall.source]
-    line = float((a - start) @ inward)
-    reach = line / steep
-    # The rim of the robot's width meets the wall first.
-    slant = math.sqrt(max(1.0 - steep * steep, 0.0)) / steep
-    rim = (line + r0) / steep - r_min * slant
-    place = float((start + reach * ahead - a) @ along)
-    is_clear = met >= rim - JOG * (1.0 / steep + slant)
-    is_on_wall = -r0 < place < wall.fused.value + r0 and met <= rim + JOG / steep
-    if not (is_clear and is_on_wall):
-        return None
-    return reach + abs(float((goal - start - reach * ahead) @ along))
-
-
-def _free_way(
-    start: NDArray[np.float64],
-    ahead: NDArray[np.float64],
-    half_width: float,
-    walls: shapely.STRtree,
-) -> float:
-    """Return how far a swath of some width is free of walls."""
-    far = 1e3
-    left = np.array([-ahead[1], ahead[0]]) * (half_width - 1e-3)
-    swath = shapely.Polygon(
-        [
-            start - left,
-            start + far * ahead - left,
-            start + far * ahead + left,
-            start + left,
-        ]
-    )
-    met = far
-    for k in walls.query(swath, predicate="intersects"):
-        piece = walls.geometries[k].intersection(swath)
-        points = shapely.get_coordinates(piece) - start
-        met = min(met, float((points @ ahead).min(initial=far)))
-    return met
+    is_there = math.dist(robot.pose[:2], goal.tolist()) <= NEAR
+    return robot.travelled if is_there else None

@@ -12,6 +12,7 @@ from behaviours.follow_wall import follow_wall
 from behaviours.mirror import mirrored
 from behaviours.port import Side
 from behaviours.vertices import VertexType
+from topomap.errors import JobError
 from topomap.incursions.crossing import face
 from topomap.topological_map import same_direction
 
@@ -33,6 +34,8 @@ __all__ = [
 
 RIGHT_ANGLE = math.pi / 2
 """In radians."""
+BEND = {VertexType.INT: RIGHT_ANGLE, VertexType.EXT: -RIGHT_ANGLE}
+"""How far the wall on the right bends to the left at a corner, in radians."""
 JOGS = 4
 """A wall may have so many corners that the map does not know."""
 SLIP = 0.05
@@ -96,8 +99,7 @@ def follow_on(
     Behaviour
         Returns the `Arrival` at the next corner.
     """
-    bend = {VertexType.INT: RIGHT_ANGLE, VertexType.EXT: -RIGHT_ANGLE}
-    turn = 0.0 if corner is None else bend[corner]
+    turn = 0.0 if corner is None else BEND[corner]
     is_left = side is Side.LEFT
     heading = yield from face(heading, exit_ + turn if is_left else exit_ - turn)
     behaviour = follow_wall(parameters, corner)
@@ -144,11 +146,21 @@ def walk_wall(
     Behaviour
         Returns the `Arrival` and whether it is as the map says.
 
+    Raises
+    ------
+    JobError
+        From the running coroutine, if the edge is no wall in open space.
+
     Notes
     -----
     What recedes a little on the way there juts out on the way back, and may then be
     a pair of corners that the map does not have: the robot follows round them.
     """
+    if edge.behaviour != "WF" or corner not in BEND:
+        raise JobError(
+            f"the way from vertex {edge.source} to vertex {edge.target} is "
+            f"{edge.behaviour} at {corner.name}: only walls in open space can be driven"
+        )
     exit_ = edge.source_exit if is_forward else edge.target_exit
     side = Side.RIGHT if is_forward else Side.LEFT
     expected = edge.fused
