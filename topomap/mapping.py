@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
@@ -19,9 +21,12 @@ from worlds.fit import check_fit
 from worlds.starts import check_start, choose_start
 
 if TYPE_CHECKING:
+    from os import PathLike
+
     import numpy as np
 
     from behaviours.parameters import Parameters
+    from behaviours.port import Body
     from evidence.walls import LoopCloser
     from topomap.boundary import Walk
     from topomap.comparison import Comparison
@@ -29,7 +34,7 @@ if TYPE_CHECKING:
     from worlds.pose import Pose
     from worlds.world import World
 
-__all__ = ["MAX_SIGMA", "Build", "build_map"]
+__all__ = ["MAX_SIGMA", "Build", "build_map", "map_by"]
 
 MAX_SIGMA = 0.5
 """Lengths that are off by half of themselves say nothing about a loop."""
@@ -85,6 +90,8 @@ def build_map(
     parameters: Parameters | None = None,
     closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
+    watch: Callable[[LoopCloser], LoopCloser] | None = None,
+    log: str | PathLike[str] | None = None,
 ) -> Build:
     """Set a robot down in a world and let it map the boundary it first meets.
 
@@ -108,6 +115,11 @@ def build_map(
         `topomap.closers.CLOSINGS`.
     max_walls : int
         The loop is given up as open after so many walls.
+    watch : callable, optional
+        Gets the closer, and returns one that does the same and looks on.
+    log : path-like, optional
+        MCAP file to write, with all that the robot sensed, was asked, answered
+        and believed; `topomap.logs.replaying.replay_map` makes the same map of it.
 
     Returns
     -------
@@ -117,7 +129,7 @@ def build_map(
     Raises
     ------
     InputError
-        If a name is unknown or sigma is out of range.
+        If a name is unknown, sigma is out of range, or the log cannot be written.
     WorldError
         If the world is not rectilinear, too narrow, or the start is not free.
     JobError
@@ -153,11 +165,24 @@ def build_map(
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )
-    try:
-        walk = run(map_boundary(parameters, closer, max_walls), robot)
-    except UnforeseenError as error:
-        raise JobError(str(error)) from error
-    chart = fold(walk, parameters, sigma)
+    if watch is not None:
+        closer = watch(closer)
+    with ExitStack() as stack:
+        if log is None:
+            walk, chart = map_by(robot, closer, max_walls, sigma)
+        else:
+            from topomap.logs.recording import recording
+
+            about = {
+                "body": body,
+                "start": asdict(start),
+                "sigma": sigma,
+                "closing": closing if isinstance(closing, str) else None,
+                "max_walls": max_walls,
+            }
+            logged = stack.enter_context(recording(log, robot, about))
+            walk, chart = map_by(logged, logged.watched(closer), max_walls, sigma)
+            logged.show(chart)
     return Build(
         chart,
         walk.period is not None,
@@ -168,3 +193,36 @@ def build_map(
         robot.clock,
         robot.collisions,
     )
+
+
+def map_by(
+    body: Body, closer: LoopCloser, max_walls: int, sigma: float
+) -> tuple[Walk, TopologicalMap]:
+    """Let a body map the boundary that it first meets.
+
+    Parameters
+    ----------
+    body : Body
+        Simulated, real or recorded.
+    closer : LoopCloser
+        Decides when it has come round.
+    max_walls : int
+        The loop is given up as open after so many walls.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+
+    Returns
+    -------
+    Walk, TopologicalMap
+        What it met, and the map of that, closed or open.
+
+    Raises
+    ------
+    JobError
+        If the body is stuck or loses its wall.
+    """
+    try:
+        walk = run(map_boundary(body.parameters, closer, max_walls), body)
+    except UnforeseenError as error:
+        raise JobError(str(error)) from error
+    return walk, fold(walk, body.parameters, sigma)

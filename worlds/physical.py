@@ -156,6 +156,16 @@ class PhysicalBody:
         return self._robot.disc.contacts
 
     @property
+    def robot(self) -> Robot:
+        """What its controllers read and set."""
+        return self._robot
+
+    @property
+    def arena(self) -> Arena:
+        """The world it stands in."""
+        return self._arena
+
+    @property
     def pose(self) -> tuple[float, float, float]:
         """True x and y, in metres, and heading, in radians, in the world's frame."""
         disc = self._robot.disc

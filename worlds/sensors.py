@@ -40,6 +40,8 @@ class Eyes:
         from worlds.rays import cast
 
         self.front = self.beam = self.left = self.right = math.inf
+        self.answers: list[float] = [math.inf] * len(profile.rangers)
+        """What each ranger said last, in metres from its mount."""
         self._arena = arena
         self._row = disc.row
         self._normal = normal
@@ -59,7 +61,11 @@ class Eyes:
         front = left = right = math.inf
         beams: list[float] = []
         swath = self._swath
-        for reading, optics in zip(ranges.tolist(), self._optics, strict=True):
+        answers = self.answers
+        for k, (reading, optics) in enumerate(
+            zip(ranges.tolist(), self._optics, strict=True)
+        ):
+            answers[k] = math.inf
             if reading == math.inf:
                 continue
             mount_x, mount_y, cos, sin, near, far, noise, growth, side = optics
@@ -68,7 +74,7 @@ class Eyes:
                 reading += deviation * self._normal()
             if reading > far:
                 continue
-            reading = max(reading, near)
+            answers[k] = reading = max(reading, near)
             ahead = mount_x + cos * reading
             aside = mount_y + sin * reading
             if ahead > 0.0 and -swath < aside < swath and ahead < front:
