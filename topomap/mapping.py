@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from contextlib import ExitStack
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
@@ -21,8 +20,6 @@ from worlds.fit import check_fit
 from worlds.starts import check_start, choose_start
 
 if TYPE_CHECKING:
-    from os import PathLike
-
     import numpy as np
 
     from behaviours.parameters import Parameters
@@ -34,7 +31,7 @@ if TYPE_CHECKING:
     from worlds.pose import Pose
     from worlds.world import World
 
-__all__ = ["MAX_SIGMA", "Build", "build_map", "map_by"]
+__all__ = ["MAX_SIGMA", "MAX_WALLS", "Build", "build_map", "check_options", "map_by"]
 
 MAX_SIGMA = 0.5
 """Lengths that are off by half of themselves say nothing about a loop."""
@@ -90,8 +87,7 @@ def build_map(
     parameters: Parameters | None = None,
     closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
-    watch: Callable[[LoopCloser], LoopCloser] | None = None,
-    log: str | PathLike[str] | None = None,
+    watch: Callable[[Body], Body] | None = None,
 ) -> Build:
     """Set a robot down in a world and let it map the boundary it first meets.
 
@@ -116,10 +112,8 @@ def build_map(
     max_walls : int
         The loop is given up as open after so many walls.
     watch : callable, optional
-        Gets the closer, and returns one that does the same and looks on.
-    log : path-like, optional
-        MCAP file to write, with all that the robot sensed, was asked, answered
-        and believed; `topomap.logs.replaying.replay_map` makes the same map of it.
+        Given the body before it moves; what it returns is used in its place. So a
+        recorder can look on, as `topomap.page.BuildRecorder` does.
 
     Returns
     -------
@@ -129,7 +123,7 @@ def build_map(
     Raises
     ------
     InputError
-        If a name is unknown, sigma is out of range, or the log cannot be written.
+        If a name is unknown or sigma is out of range.
     WorldError
         If the world is not rectilinear, too narrow, or the start is not free.
     JobError
@@ -151,10 +145,7 @@ def build_map(
     >>> build.correct, len(build.map.vertices), build.map.unexplored_exits
     (True, 6, 0)
     """
-    if not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
-        raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
-    if max_walls < 1:
-        raise InputError("", "max_walls", max_walls, "a number of at least 1")
+    check_options(sigma, max_walls)
     start_rng, body_rng = rng.spawn(2)
     parameters = parameters or body_parameters(body)
     check_fit(world, parameters)
@@ -162,27 +153,12 @@ def build_map(
         start = choose_start(world, parameters, start_rng)
     check_start(world, parameters, start)
     robot = make_body(body, world, start, body_rng, sigma=sigma, parameters=parameters)
+    if watch is not None:
+        robot = watch(robot)
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )
-    if watch is not None:
-        closer = watch(closer)
-    with ExitStack() as stack:
-        if log is None:
-            walk, chart = map_by(robot, closer, max_walls, sigma)
-        else:
-            from topomap.logs.recording import recording
-
-            about = {
-                "body": body,
-                "start": asdict(start),
-                "sigma": sigma,
-                "closing": closing if isinstance(closing, str) else None,
-                "max_walls": max_walls,
-            }
-            logged = stack.enter_context(recording(log, robot, about))
-            walk, chart = map_by(logged, logged.watched(closer), max_walls, sigma)
-            logged.show(chart)
+    walk, chart = map_by(robot, closer, max_walls, sigma)
     return Build(
         chart,
         walk.period is not None,
@@ -226,3 +202,17 @@ def map_by(
     except UnforeseenError as error:
         raise JobError(str(error)) from error
     return walk, fold(walk, body.parameters, sigma)
+
+
+def check_options(sigma: float | None, max_walls: int | None) -> None:
+    """Check what a map is made by; None is right.
+
+    Raises
+    ------
+    InputError
+        If sigma or the number of walls is out of range.
+    """
+    if sigma is not None and not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
+        raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
+    if max_walls is not None and max_walls < 1:
+        raise InputError("", "max_walls", max_walls, "a number of at least 1")

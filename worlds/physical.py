@@ -125,7 +125,8 @@ class PhysicalBody:
             raise ValueError(f"sigma must be from 0 to 0.5; got {sigma}")
         if parameters is not None:
             profile = replace(profile, parameters=parameters)
-        self._arena = arena
+        self.arena = arena
+        """The world it stands in, and whoever else is there."""
         self._parameters = profile.parameters
         self._robot = Robot(arena, start, profile, rng, sigma)
         self._control: Control[Outcome] | None = None
@@ -148,7 +149,7 @@ class PhysicalBody:
     @property
     def clock(self) -> float:
         """Time since the arena's start, in simulated seconds."""
-        return self._arena.clock
+        return self.arena.clock
 
     @property
     def collisions(self) -> int:
@@ -159,11 +160,6 @@ class PhysicalBody:
     def robot(self) -> Robot:
         """What its controllers read and set."""
         return self._robot
-
-    @property
-    def arena(self) -> Arena:
-        """The world it stands in."""
-        return self._arena
 
     @property
     def pose(self) -> tuple[float, float, float]:
@@ -200,14 +196,14 @@ class PhysicalBody:
             robot.edge_behind = None
         self._control = controller(robot, primitive)
         self._start = robot.odometer
-        self._since = self._arena.ticks
+        self._since = self.arena.ticks
         self._is_recoiling = False
 
     def step(self) -> Outcome | None:
         """Decide, and unless the primitive has ended let one time step pass."""
         outcome = self.poll()
         if outcome is None:
-            self._arena.step()
+            self.arena.step()
         return outcome
 
     def poll(self) -> Outcome | None:
@@ -230,7 +226,7 @@ class PhysicalBody:
             next(self._control)
         except StopIteration as end:
             return self._end(end.value)
-        late = self._arena.ticks - self._since > PATIENCE / self._arena.time_step
+        late = self.arena.ticks - self._since > PATIENCE / self.arena.time_step
         return self._end(self._outcome(Reason.STUCK)) if late else None
 
     def _end(self, outcome: Outcome) -> Outcome:

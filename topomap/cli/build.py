@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import time
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
+    from topomap.logs.recording import Recording
     from topomap.mapping import Build
     from worlds.pose import Pose
     from worlds.world import World
@@ -17,24 +19,57 @@ __all__ = ["build"]
 
 
 def build(
-    world: Annotated[Path, typer.Argument(help="World file.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="Map file to write.")],
+    world: Annotated[
+        Path | None,
+        typer.Argument(help="World file; with --replay only to judge the map by."),
+    ] = None,
     body: Annotated[
         str, typer.Option(help="ideal, physical, or a physical robot's profile.")
     ] = "ideal",
     sigma: Annotated[
-        float, typer.Option(help="Error of a measured length, as a part of it.")
-    ] = 0.06,
+        float | None,
+        typer.Option(
+            help="Error of a measured length, as a part of it.",
+            show_default="0.06, or the log's",
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of all that is drawn.")] = 0,
     start: Annotated[
         str | None, typer.Option(help="X,Y,DEG where the robot is set down.")
     ] = None,
     closing: Annotated[
-        str, typer.Option(help="What decides that the loop is closed.")
-    ] = "likelihood",
+        str | None,
+        typer.Option(
+            help="What decides that the loop is closed.",
+            show_default="likelihood, or the log's",
+        ),
+    ] = None,
     max_walls: Annotated[
-        int, typer.Option(help="Give the loop up as open after so many walls.")
-    ] = 5000,
+        int | None,
+        typer.Option(
+            help="Give the loop up as open after so many walls.",
+            show_default="5000, or the log's",
+        ),
+    ] = None,
+    log: Annotated[
+        Path | None, typer.Option(help="MCAP file to log the run to.")
+    ] = None,
+    replay: Annotated[
+        Path | None,
+        typer.Option(
+            help="MCAP file or ROS 2 bag to make the map of; no WORLD needed."
+        ),
+    ] = None,
+    left: Annotated[
+        str | None, typer.Option(help="The replayed log's topic of ranges to the left.")
+    ] = None,
+    right: Annotated[
+        str | None, typer.Option(help="Its topic of ranges to the right.")
+    ] = None,
+    odometry: Annotated[
+        str | None, typer.Option(help="Its topic of the odometry.")
+    ] = None,
     plot: Annotated[
         Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
     ] = None,
@@ -49,18 +84,36 @@ def build(
     from topomap.cli.console import naming, say, show_json, watched
     from topomap.closers import make_closer
     from topomap.drawing import check_picture
-    from topomap.errors import JobError
+    from topomap.errors import InputError, JobError
     from topomap.files.atomic import check_writable
     from topomap.files.map_files import save_map
     from topomap.files.world_files import load_world
-    from topomap.mapping import build_map
+    from topomap.mapping import MAX_WALLS, build_map
 
+    if replay is not None:
+        from topomap.cli.replay import make_again
+
+        options = {"closing": closing, "sigma": sigma, "max_walls": max_walls}
+        topics = {"left": left, "right": right, "odometry": odometry}
+        make_again(replay, output, world, options, topics, plot, as_json)
+        return
+    for name, value in (("left", left), ("right", right), ("odometry", odometry)):
+        if value is not None:
+            raise InputError(f"--{name}", "", value, "--replay with it")
+    if world is None:
+        raise InputError("WORLD", "", None, "a world file, or --replay")
+    sigma = 0.06 if sigma is None else sigma
+    closing = closing or "likelihood"
+    max_walls = MAX_WALLS if max_walls is None else max_walls
     place = load_world(world)
     check_writable(output)
     if plot is not None:
         check_picture(plot)
+    if log is not None:
+        check_writable(log)
     began = time.perf_counter()
     with (
+        _logged(log, body, sigma, closing, max_walls, seed) as recorder,
         naming(world),
         watched(make_closer(closing, sigma, body_parameters(body))) as closer,
     ):
@@ -70,9 +123,12 @@ def build(
             body=body,
             sigma=sigma,
             start=None if start is None else _pose(start),
-            closing=closer,
+            closing=closer if recorder is None else recorder.listen(closer),
             max_walls=max_walls,
+            watch=None if recorder is None else recorder.watch,
         )
+        if recorder is not None:
+            recorder.show(built.map)
     elapsed = time.perf_counter() - began
     if plot is not None:
         draw_build(built, place, plot)
@@ -117,6 +173,18 @@ def draw_build(built: Build, world: World, path: Path) -> None:
     from topomap.drawing import save_figure
 
     save_figure(path, lambda figure: fill_figure(built, world, figure))
+
+
+def _logged(
+    log: Path | None, body: str, sigma: float, closing: str, max_walls: int, seed: int
+) -> AbstractContextManager[Recording | None]:
+    """Return what logs the run, if it shall be logged."""
+    if log is None:
+        return nullcontext()
+    from topomap.logs.recording import recording
+
+    about = {"body": body, "sigma": sigma, "seed": seed}
+    return recording(log, {**about, "closing": closing, "max_walls": max_walls})
 
 
 def _pose(text: str) -> Pose:

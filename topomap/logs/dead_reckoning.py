@@ -34,7 +34,9 @@ def moved(primitive: Primitive, outcome: Outcome) -> Motion:
     """
     is_back = getattr(primitive, "direction", None) is Direction.BACKWARD
     ahead = -outcome.distance if is_back else outcome.distance
-    turn = primitive.side.value * math.pi / 2 if isinstance(primitive, Turn) else 0.0
+    turn = 0.0
+    if isinstance(primitive, Turn):
+        turn = primitive.side.value * getattr(primitive, "angle", math.pi / 2)
     return ahead, outcome.shift, turn
 
 

@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 __all__ = ["map_drive"]
 
 
+LAST = 0.01
+"""Most that a closure may be in doubt when the log is over. A robot that drives can
+find out more at little cost, and closes at a hundredth of that; a log cannot."""
+
+
 def map_drive(
     drive: Drive,
     *,
@@ -62,8 +67,8 @@ def map_drive(
     Notes
     -----
     The whole drive is heard before the closer has its last word, unlike a robot that
-    stops when it is sure. A wall on the left is walked backwards, and so is on the
-    right: corners and lengths are the same.
+    stops when it is sure; a closure counts if at most 1 % of doubt is left then. A wall
+    on the left is walked backwards, and so is on the right: corners and lengths are the same.
     """
     is_left = _seen(drive.left) > _seen(drive.right)
     beside = drive.mirrored() if is_left else drive
@@ -73,7 +78,7 @@ def map_drive(
         raise JobError("nowhere a wall that was driven along from corner to corner")
     walks = []
     for stretch in stretches:
-        closer = make_closer(closing, sigma, lengths)
+        closer = make_closer(closing, sigma, lengths, epsilon=LAST)
         told = _backwards(stretch) if is_left else stretch
         walks.append(_walk(told, closer if watch is None else watch(closer)))
     best = max(walks, key=lambda walk: (walk.period is not None, len(walk.legs)))
@@ -90,11 +95,12 @@ def _walk(stretch: Stretch, closer: LoopCloser) -> Walk:
     """Tell a closer of all walls."""
     closer.begin(stretch.first.value, TURN[stretch.first])
     decisions = [
-        closer.observe(
-            Wall(leg.length, leg.corner.value, TURN[leg.corner], leg.shift)
-        )
+        closer.observe(Wall(leg.length, leg.corner.value, TURN[leg.corner], leg.shift))
         for leg in stretch.legs
     ]
+    last = decisions[-1]
+    if last.error_probability > LAST:
+        decisions[-1] = replace(last, period=None)
     return Walk(stretch.first, stretch.legs, tuple(decisions))
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -103,9 +104,7 @@ def walls_of(drive: Drive, parameters: Parameters) -> list[Stretch]:
     return found
 
 
-def _side(
-    drive: Drive, sees: NDArray[np.bool_], leg: StraightLeg, r0: float
-) -> _Side:
+def _side(drive: Drive, sees: NDArray[np.bool_], leg: StraightLeg, r0: float) -> _Side:
     """Return where the wall of a leg is, at its beginning and at its end."""
     part = slice(leg.first, leg.last + 1)
     headings, way = drive.headings[part], drive.way[part]
@@ -131,9 +130,7 @@ def _side(
     )
 
 
-def _middle(
-    x: NDArray[np.float64], y: NDArray[np.float64], axis: float
-) -> Place:
+def _middle(x: NDArray[np.float64], y: NDArray[np.float64], axis: float) -> Place:
     """Return the point whose place along and across the axis is the median."""
     cos, sin = math.cos(axis), math.sin(axis)
     along = float(np.median(cos * x + sin * y))
@@ -160,9 +157,7 @@ def _without_steps(sides: list[_Side], parameters: Parameters) -> list[_Side]:
     return kept
 
 
-def _is_step(
-    before: _Side, side: _Side, after: _Side, parameters: Parameters
-) -> bool:
+def _is_step(before: _Side, side: _Side, after: _Side, parameters: Parameters) -> bool:
     """Return whether what lies between two walls is no corner."""
     if before.quarter != after.quarter:
         return False
@@ -183,7 +178,7 @@ def _stretch(sides: list[_Side], parameters: Parameters) -> Stretch | None:
     """
     if len(sides) < 3:
         return None
-    kinds = [_kind(one, other) for one, other in zip(sides, sides[1:], strict=False)]
+    kinds = [_kind(one, other) for one, other in pairwise(sides)]
     legs = []
     for k in range(1, len(sides) - 1):
         side = sides[k]

@@ -17,7 +17,6 @@ from topomap.logs.reading import Topics, messages_of
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from behaviours.port import Side
 
 __all__ = ["Drive", "TopicNames", "read_drive"]
 
@@ -95,7 +94,7 @@ def read_drive(path: str | PathLike[str], names: TopicNames | None = None) -> Dr
     """
     source, topics = fspath(path), Topics()
     # The first pass unpacks nothing that it need not: it is for the topics alone.
-    for _ in messages_of(path, lambda topic, kind: False, topics):
+    for _ in messages_of(path, lambda *_: False, topics):
         pass
     chosen = _chosen(source, topics, names or TopicNames())
     columns = _columns(path, source, chosen)

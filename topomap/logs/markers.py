@@ -105,9 +105,7 @@ def _marker(
     action: int = ADD,
 ) -> Any:
     upright = message("geometry_msgs/msg/Quaternion", 0.0, 0.0, 0.0, 1.0)
-    picture = message(
-        "sensor_msgs/msg/CompressedImage", header(0, ""), "", _no_bytes()
-    )
+    picture = message("sensor_msgs/msg/CompressedImage", header(0, ""), "", _no_bytes())
     return message(
         "visualization_msgs/msg/Marker",
         *(header(stamp, MAP), group, number, kind, action),

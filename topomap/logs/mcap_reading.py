@@ -70,7 +70,7 @@ def scan_mcap(
         with path.open("rb") as file:
             stream = _Checked(file, path.stat().st_size)
             records = StreamReader(
-                stream,  # type: ignore[arg-type]
+                stream,
                 emit_chunks=True,
                 validate_crcs=True,
                 record_size_limit=LIMIT,
@@ -180,7 +180,7 @@ class _Scan:
             elif code in (SCHEMA, CHANNEL):
                 kind = Schema if code == SCHEMA else Channel
                 stream = _Checked(BytesIO(data[start:end]), end - start)
-                self._learn(kind.read(ReadDataStream(stream)))  # type: ignore[arg-type]
+                self._learn(kind.read(ReadDataStream(stream)))
             place = end
 
 

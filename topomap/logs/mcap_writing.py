@@ -16,9 +16,8 @@ from topomap.logs.ros_types import definition_of
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
-
     from mcap.records import ChunkIndex, McapRecord
+    from numpy.typing import NDArray
 
 __all__ = ["Block", "McapWriter", "message_record"]
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, BinaryIO
 
 from behaviours.port import Outcome, Primitive
 from topomap.errors import JobError
@@ -20,7 +20,6 @@ from topomap.logs.records import to_json, to_plain
 from topomap.logs.ros_types import encoded, message
 
 if TYPE_CHECKING:
-    from behaviours.parameters import Parameters
     from behaviours.port import Body
     from evidence.walls import Decision, LoopCloser, Wall
     from topomap.topological_map import TopologicalMap
@@ -33,6 +32,15 @@ RUN, PRIMITIVE, OUTCOME, DECISION, MAP_TOPIC = (
     *("/topomap/decision", "/topomap/map"),
 )
 TEXT = "std_msgs/msg/String"
+TOPICS = (
+    (RUN, TEXT, True),
+    (PRIMITIVE, TEXT, False),
+    (OUTCOME, TEXT, False),
+    (DECISION, TEXT, False),
+    (MAP_TOPIC, MARKERS, True),
+    ("/tf_static", TRANSFORMS, True),
+)
+"""Topic, type, and whether a late listener must hear it too."""
 SHOWN = 8
 """So many hypotheses of a decision are logged, the most believed first."""
 FULL = 2000
@@ -41,23 +49,22 @@ FULL = 2000
 
 @contextmanager
 def recording(
-    path: str | PathLike[str], body: Body, about: Mapping[str, object]
+    path: str | PathLike[str], about: Mapping[str, object]
 ) -> Iterator[Recording]:
-    """Log what a body does while the block runs, to a file that is whole or not there.
+    """Log a run while the block runs, to a file that is whole or not there.
 
     Parameters
     ----------
     path : path-like
         The MCAP file.
-    body : Body
-        Nothing has been executed yet.
     about : mapping
-        What the run is: plain values, kept in the log.
+        What the run is, in plain values: a replay needs ``sigma``, ``max_walls`` and
+        ``closing``, the closer's name.
 
     Yields
     ------
     Recording
-        Whose `body` shall be used in place of the one given.
+        To be given the body by `watch` and the closer by `listen`.
 
     Raises
     ------
@@ -68,7 +75,7 @@ def recording(
     """
     failure: JobError | None = None
     with written_whole(path) as stream:
-        log = Recording(McapWriter(stream, "topomap"), body, about)
+        log = Recording(stream, about)
         try:
             yield log
         except JobError as error:
@@ -81,72 +88,58 @@ def recording(
 class Recording:
     """A log that is being written; made by `recording`."""
 
-    def __init__(
-        self, writer: McapWriter, body: Body, about: Mapping[str, object]
-    ) -> None:
-        self._writer = writer
-        self._inner = body
+    def __init__(self, stream: BinaryIO, about: Mapping[str, object]) -> None:
+        self._writer = writer = McapWriter(stream, "topomap")
+        self._about = about
+        self._body: Body | None = None
+        self._looks: Looks | None = None
         self._block = Block()
         self._counts: dict[str, int] = {}
         self._channels = {
             topic: writer.channel(topic, kind, latched=latched)
-            for topic, kind, latched in (
-                (RUN, TEXT, True),
-                (PRIMITIVE, TEXT, False),
-                (OUTCOME, TEXT, False),
-                (DECISION, TEXT, False),
-                (MAP_TOPIC, MARKERS, True),
-                ("/tf_static", TRANSFORMS, True),
-            )
+            for topic, kind, latched in TOPICS
         }
-        self._looks: Looks = looks_of(body, writer, self._flush)
         self._growing = GrowingMap()
-        head = {"type": "Run", "format": FORMAT, "version": VERSION, **about}
-        head["parameters"] = to_plain(body.parameters)
-        self._say(RUN, head)
-        mounts = self._looks.mounts(self.stamp)
-        self._put("/tf_static", TRANSFORMS, message(TRANSFORMS, mounts))
+
+    def watch(self, body: Body) -> Body:
+        """Return a body that does the same, and all of it is logged.
+
+        Parameters
+        ----------
+        body : Body
+            It has not moved yet.
+        """
+        self._body = body
+        self._looks = looks = looks_of(body, self._writer, self._flush)
+        head = {"format": FORMAT, "version": VERSION, **self._about}
+        self._say(RUN, {**head, "parameters": to_plain(body.parameters)})
+        mounts = message(TRANSFORMS, looks.mounts(self.stamp))
+        self._put("/tf_static", TRANSFORMS, mounts)
+        return _LoggedBody(body, self)
+
+    def listen(self, closer: LoopCloser) -> LoopCloser:
+        """Return a closer that does the same, and whose decisions are logged."""
+        return _LoggedCloser(closer, self)
 
     @property
     def stamp(self) -> int:
         """Time in the robot's world, in nanoseconds."""
-        return round(self._inner.clock * 1e9)
+        return 0 if self._body is None else round(self._body.clock * 1e9)
 
-    @property
-    def parameters(self) -> Parameters:
-        """The lengths this robot keeps."""
-        return self._inner.parameters
-
-    @property
-    def travelled(self) -> float:
-        """True way since the start, in metres."""
-        return self._inner.travelled
-
-    @property
-    def clock(self) -> float:
-        """Time since the start, in seconds of the robot's world."""
-        return self._inner.clock
-
-    @property
-    def collisions(self) -> int:
-        """How often the body has begun to touch a wall or another robot."""
-        return self._inner.collisions
-
-    def execute(self, primitive: Primitive) -> Outcome:
-        """Let the body carry out a primitive, and log it."""
+    def asked(self, primitive: Primitive) -> None:
+        """Log what the body is asked to do."""
         self._say(PRIMITIVE, to_plain(primitive))
-        outcome = self._inner.execute(primitive)
-        self._looks.after(moved(primitive, outcome), outcome)
-        plain = to_plain(outcome)
-        plain["travelled"] = to_plain(self._inner.travelled)
-        plain["clock"] = self._inner.clock
-        plain["collisions"] = self._inner.collisions
-        self._say(OUTCOME, plain)
-        return outcome
 
-    def watched(self, closer: LoopCloser) -> LoopCloser:
-        """Return a closer that does the same, and whose decisions are logged."""
-        return _LoggedCloser(closer, self)
+    def answered(self, primitive: Primitive, outcome: Outcome) -> None:
+        """Log what came of it."""
+        plain = to_plain(outcome)
+        if self._looks is not None:
+            self._looks.after(moved(primitive, outcome), outcome)
+        if self._body is not None:
+            plain["travelled"] = to_plain(self._body.travelled)
+            plain["clock"] = self._body.clock
+            plain["collisions"] = self._body.collisions
+        self._say(OUTCOME, plain)
 
     def begin(self, kind: str, turn: float) -> None:
         """Log the corner where the map begins."""
@@ -166,7 +159,8 @@ class Recording:
 
     def finish(self) -> None:
         """Write what is left, and the end of the file."""
-        self._looks.flush()
+        if self._looks is not None:
+            self._looks.flush()
         self._flush()
         self._writer.finish()
 
@@ -174,8 +168,9 @@ class Recording:
         """Log the newest corner, and where the odometry's frame is in the map's."""
         stamp, growing = self.stamp, self._growing
         self._put(MAP_TOPIC, MARKERS, growing.newest(stamp))
-        frame = growing.frame(stamp, self._looks.pose)
-        self._add(self._looks.tf_channel, TRANSFORMS, frame)
+        if self._looks is not None:
+            frame = growing.frame(stamp, self._looks.pose)
+            self._add(self._looks.tf_channel, TRANSFORMS, frame)
 
     def _say(self, topic: str, plain: dict[str, Any]) -> None:
         """Log an object, numbered by its topic."""
@@ -196,6 +191,25 @@ class Recording:
         """Write a chunk of what was done and believed."""
         block, self._block = self._block, Block()
         self._writer.block(block)
+
+
+class _LoggedBody:
+    """A body whose primitives and outcomes are logged; otherwise the one inside."""
+
+    def __init__(self, body: Body, log: Recording) -> None:
+        self._body = body
+        self._log = log
+
+    def execute(self, primitive: Primitive) -> Outcome:
+        """Let the body carry out a primitive, and log it."""
+        self._log.asked(primitive)
+        outcome = self._body.execute(primitive)
+        self._log.answered(primitive, outcome)
+        return outcome
+
+    def __getattr__(self, name: str) -> Any:
+        """Return what the body itself has."""
+        return getattr(self._body, name)
 
 
 class _LoggedCloser:

@@ -12,7 +12,7 @@ import msgspec
 from behaviours.parameters import Parameters
 from behaviours.port import Outcome, Primitive
 from topomap.closers import make_closer
-from topomap.errors import InputError, JobError
+from topomap.errors import InputError
 from topomap.logs.messages import text_of
 from topomap.logs.reading import Topics, messages_of
 from topomap.logs.records import from_plain, to_plain
@@ -137,7 +137,7 @@ class RecordedBody:
             raise InputError(source, f"{PRIMITIVE}[{number}]", asked, str(plain))
         self._next += 1
         place = f"{OUTCOME}[{number}]"
-        outcome = _made(source, place, answered, Outcome)
+        outcome: Outcome = _made(source, place, answered, Outcome)
         told = _made(source, place, answered, _Told)
         self.travelled, self.clock = told.travelled, told.clock
         self.collisions = told.collisions

@@ -32,6 +32,7 @@ def type_store() -> Typestore:
     return get_typestore(Stores.ROS2_JAZZY)
 
 
+@cache
 def definition_of(kind: str) -> str:
     """Return a type's definition with those that it uses, as ``ros2msg``."""
     definition, _ = type_store().generate_msgdef(kind, ros_version=2)

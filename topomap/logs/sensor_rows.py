@@ -198,7 +198,7 @@ class LookTable:
             channel: np.stack([stamps, firsts + start], axis=1).astype(np.uint64)
             for channel, start in zip(self._channels, self._starts, strict=True)
         }
-        return memoryview(table.reshape(-1)), places
+        return table.reshape(-1).data, places
 
 
 def _range_message(ranger: RangeTopic) -> tuple[str, Any]:

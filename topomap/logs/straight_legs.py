@@ -124,7 +124,9 @@ def straight_legs(
             axis += off * min(1.0, steps[k] / FORGET)
             total += angles[k] * steps[k]
             weight += steps[k]
-    legs.append(StraightLeg(first, piece[1], quarter, total / weight if weight else axis))
+    legs.append(
+        StraightLeg(first, piece[1], quarter, total / weight if weight else axis)
+    )
     return legs
 
 
@@ -140,6 +142,10 @@ def _steady_start(
         end = int(np.searchsorted(way, way[k] + BEGUN * r0))
         if end > piece[1]:
             return None
-        if end > k + 1 and np.ptp(headings[k:end]) < STEADY and sees[k:end].mean() > 0.7:
+        if (
+            end > k + 1
+            and np.ptp(headings[k:end]) < STEADY
+            and sees[k:end].mean() > 0.7
+        ):
             return k, float(headings[k:end].mean())
     return None
