@@ -68,7 +68,8 @@ def map_drive(
     -----
     The whole drive is heard before the closer has its last word, unlike a robot that
     stops when it is sure; a closure counts if at most 1 % of doubt is left then. A wall
-    on the left is walked backwards, and so is on the right: corners and lengths are the same.
+    on the left is walked backwards, and so is on the right: corners and lengths are
+    the same.
     """
     is_left = _seen(drive.left) > _seen(drive.right)
     beside = drive.mirrored() if is_left else drive

@@ -160,7 +160,7 @@ class _Steps(_Gathered):
     ) -> None:
         self._body = body
         self.pose = START
-        far = 2 * body.parameters.r_max
+        self._far = far = 2 * body.parameters.r_max
         quarter = math.pi / 2
         rangers = tuple(
             RangeTopic(name, 0.0, 0.0, yaw, 0.0, far, 0.0)
@@ -177,7 +177,10 @@ class _Steps(_Gathered):
         self._since = now
         seen = outcome.readings
         pace = motion[0] / lapse, motion[2] / lapse
-        ranges = seen.front, seen.left, seen.right
+        ranges = [
+            reading if reading <= self._far else math.inf
+            for reading in (seen.front, seen.left, seen.right)
+        ]
         self._rows.append((now, *self.pose, *pace, *ranges))
         if len(self._rows) >= FULL:
             self.flush()
