@@ -53,7 +53,7 @@ def path_round(ring, r0, laps, radius, step=0.02):
         for a in np.arange(0.0, abs(turn), step / max(radius, 0.05)):
             to = -side * radius * lefts[i]
             c, s = math.cos(side * a), math.sin(side * a)
-            spot = centre + (c * to[0] - s * to[1], s * to[0] + c * to[1])
+            spot = np.add(centre, (c * to[0] - s * to[1], s * to[0] + c * to[1]))
             poses.append((*spot, heading + side * a))
     return np.array(poses)
 

@@ -11,6 +11,7 @@ import numpy as np
 from topomap.logs.dead_reckoning import Motion, Pose, after_motion, summed
 from topomap.logs.markers import transform
 from topomap.logs.sensor_rows import BASE, LookTable, RangeTopic, range_topics
+from worlds.driven import DrivenBody
 from worlds.physical import PhysicalBody
 
 if TYPE_CHECKING:
@@ -51,14 +52,14 @@ def looks_of(body: Body, writer: McapWriter, flushed: Callable[[], None]) -> Loo
     Parameters
     ----------
     body : Body
-        A physical body is looked at whenever its rangers answer; any other one
+        A physical or a real one is looked at whenever its rangers answer; any other
         whenever a primitive has ended, for then it tells what it reads.
     writer : McapWriter
         Gets the topics and the chunks.
     flushed : callable
         Called when a chunk is written, so that others write theirs.
     """
-    if isinstance(body, PhysicalBody):
+    if isinstance(body, (PhysicalBody, DrivenBody)):
         return _Watch(body, writer, flushed)
     return _Steps(body, writer, flushed)
 
@@ -97,17 +98,18 @@ class _Gathered:
 
 
 class _Watch(_Gathered):
-    """A rider of the arena that looks over a physical robot's shoulder."""
+    """A rider that looks over a robot's shoulder."""
 
     def __init__(
-        self, body: PhysicalBody, writer: McapWriter, flushed: Callable[[], None]
+        self, body: PhysicalBody | DrivenBody, writer: McapWriter, flushed: Callable[[], None]
     ) -> None:
         self._robot = body.robot
-        self._arena = body.arena
+        self._body = body
         super().__init__(writer, range_topics(body.robot.profile.rangers), flushed)
         self._last = START
         self._before = (body.clock, body.robot.odometer, body.robot.turned)
-        self._arena.riders.append(self)
+        host = body.arena if isinstance(body, PhysicalBody) else body
+        host.riders.append(self)
 
     def act(self) -> None:
         """Do nothing: it only watches."""
@@ -116,7 +118,7 @@ class _Watch(_Gathered):
         """Keep what the rangers have just answered."""
         robot = self._robot
         if robot.is_fresh:
-            now = self._arena.clock, robot.odometer, robot.turned
+            now = self._body.clock, robot.odometer, robot.turned
             self._rows.append((*now, *robot.eyes.answers))
             if len(self._rows) >= FULL:
                 self.flush()
