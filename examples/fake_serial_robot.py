@@ -20,6 +20,7 @@ from worlds.simulated_robot import SimulatedRobot
 
 
 def main(world: str, x: str, y: str, degrees: str) -> None:
+    """Play the robot until killed."""
     arena = Arena(load_world(world))
     start = Pose(float(x), float(y), math.radians(float(degrees)))
     robot = SimulatedRobot(arena, start, GENERIC, np.random.default_rng(1), sigma=0.04)

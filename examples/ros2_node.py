@@ -43,11 +43,13 @@ class RosMachine:
             node.create_subscription(Range, topic, self._seen(topic), 10)
 
     def drive(self, speed: float, spin: float) -> None:
+        """Turn the wheels until told otherwise."""
         twist = self._twist()
         twist.linear.x, twist.angular.z = speed, spin
         self._wheels.publish(twist)
 
     def report(self) -> Report:
+        """Wait for the next odometry, and tell what it and the rangers say."""
         self._odometry = None
         while self._odometry is None:
             if not self._ros.ok():
@@ -74,6 +76,7 @@ class RosMachine:
 
 
 def main(chart: str, log: str) -> None:
+    """Map the room, and write map and log."""
     import rclpy
 
     rclpy.init()

@@ -33,9 +33,11 @@ class SerialMachine:
         self._heard = b""
 
     def drive(self, speed: float, spin: float) -> None:
+        """Turn the wheels until told otherwise."""
         os.write(self._port, f"D {speed:.4f} {spin:.4f}\n".encode())
 
     def report(self) -> Report:
+        """Wait for the next tick, and tell what was counted and seen."""
         os.write(self._port, b"T\n")
         while b"\n" not in self._heard:
             if not select.select([self._port], [], [], 2.0)[0]:
@@ -53,7 +55,13 @@ class SerialMachine:
 
 
 def main(port: str, chart: str, log: str) -> None:
-    about = {"body": "serial", "sigma": SIGMA, "closing": "likelihood", "max_walls": 999}
+    """Map the room, and write map and log."""
+    about = {
+        "body": "serial",
+        "sigma": SIGMA,
+        "closing": "likelihood",
+        "max_walls": 999,
+    }
     with recording(log, about) as recorder:
         body = recorder.watch(DrivenBody(SerialMachine(port), GENERIC))
         closer = make_closer("likelihood", SIGMA, body.parameters)

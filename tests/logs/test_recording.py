@@ -14,10 +14,10 @@ import worlds
 from topomap.errors import InputError, JobError
 from topomap.logs.building import build_logged
 from topomap.logs.messages import ODOMETRY, RANGE, odometry_of, range_of
+from topomap.logs.range_topics import range_topics
 from topomap.logs.reading import messages_of
 from topomap.logs.recording import recording
 from topomap.logs.replaying import read_recorded, replay_map
-from topomap.logs.sensor_rows import range_topics
 from worlds.profiles import EPUCK, GENERIC
 
 BODIES = ["ideal", "physical"]

@@ -19,6 +19,7 @@ MODULES = (
     "topomap.experiments.floor_plans",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
+    "topomap.experiments.replaying",
 )
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
 

@@ -10,7 +10,8 @@ import numpy as np
 
 from topomap.logs.dead_reckoning import Motion, Pose, after_motion, summed
 from topomap.logs.markers import transform
-from topomap.logs.sensor_rows import BASE, LookTable, RangeTopic, range_topics
+from topomap.logs.range_topics import RangeTopic, range_topics
+from topomap.logs.sensor_rows import BASE, LookTable
 from worlds.driven import DrivenBody
 from worlds.physical import PhysicalBody
 
@@ -101,7 +102,10 @@ class _Watch(_Gathered):
     """A rider that looks over a robot's shoulder."""
 
     def __init__(
-        self, body: PhysicalBody | DrivenBody, writer: McapWriter, flushed: Callable[[], None]
+        self,
+        body: PhysicalBody | DrivenBody,
+        writer: McapWriter,
+        flushed: Callable[[], None],
     ) -> None:
         self._robot = body.robot
         self._body = body
