@@ -42,6 +42,8 @@ def test_the_map_of_a_drive_round_a_room(tmp_path, ring, along, drift, radius, l
     made = map_drive(read_drive(path), sigma=0.03)
     is_right, error = judged(made, ring)
     assert is_right
+    shift = max((edge.shift for edge in made.map.edges), key=abs)
+    assert shift == pytest.approx(0.12 if ring is STEPPED else 0.0, abs=0.03)
     assert error < 0.2
     assert made.map.parameters.r0 == pytest.approx(0.3, abs=0.02)
     assert made.walk.decisions[-1].error_probability < 0.01
@@ -139,6 +141,16 @@ def test_the_physical_body_mapped_by_its_ranges_and_odometry_alone(tmp_path, see
     made = map_drive(read_drive(path))
     assert made.closed
     assert compare_maps(made.map, *true_maps(world, made.map.parameters)).correct
+
+
+def test_where_the_physical_body_turns_to_a_step_of_the_wall_is_no_corner(tmp_path):
+    path = tmp_path / "run.mcap"
+    options = {"body": "physical", "closing": "likelihood-full-lap"}
+    build_logged(make_world(STEPPED), np.random.default_rng(5), path, **options)
+    made = map_drive(read_drive(path))
+    assert judged(made, STEPPED)[0]
+    shifts = [edge.shift for edge in made.map.edges]
+    assert max(shifts, key=abs) == pytest.approx(0.12, abs=0.05)
 
 
 def test_topics_are_found_by_type_and_side_or_named(tmp_path):

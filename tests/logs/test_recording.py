@@ -135,6 +135,9 @@ def test_the_map_grows_by_a_corner_and_a_wall_and_ends_as_the_map(logged):
     path, built = logged[1]["physical"]
     arrays = [value.markers for _, value in by_mcap(path)["/topomap/map"]]
     assert [len(markers) for markers in arrays[:-1]] == [1] + [2] * len(built.walk.legs)
+    corners = [markers[0].pose.position for markers in arrays[:-1]]
+    for corner, vertex in zip(corners, built.map.vertices, strict=False):
+        assert (corner.x, corner.y) == pytest.approx(vertex.position, abs=0.5)
     clear, *rest = arrays[-1]
     assert clear.action == 3
     balls = [m for m in rest if m.ns == "vertices"]

@@ -36,6 +36,8 @@ SEEN = 1.8
 """A wall beside the robot is at most so far away, in parts of r0."""
 WINDOW = 2.0
 """A wall's line is taken from so much way next to the corner, in parts of r0."""
+JUMP, STEP = 3, 0.25
+"""A wall whose range changes by more than so many r0 in so many samples steps."""
 LEAST = 0.01
 """Shortest wall, in metres."""
 Place = tuple[float, float]
@@ -60,6 +62,8 @@ class _Side:
     """A point of its line near its beginning, in the frame of the odometry."""
     end: Place
     clearance: float
+    shift: float
+    """Way to the left at steps of the wall, in metres."""
 
 
 def parameters_of(drive: Drive) -> Parameters:
@@ -127,7 +131,29 @@ def _side(drive: Drive, sees: NDArray[np.bool_], leg: StraightLeg, r0: float) ->
         _middle(foot_x[begin], foot_y[begin], leg.axis),
         _middle(foot_x[end], foot_y[end], leg.axis),
         float(drive.left[part][is_along].min(initial=math.inf)),
+        _shift_of_steps(way[good], ranges[good], r0),
     )
+
+
+def _shift_of_steps(
+    way: NDArray[np.float64], ranges: NDArray[np.float64], r0: float
+) -> float:
+    """Return by how much the wall steps towards the robot while it is passed.
+
+    The range jumps at a step; what the robot does about it takes longer. Next to the
+    corners the ranges tell of those.
+    """
+    inside = (way > way[0] + 0.5 * r0) & (way < way[-1] - 0.5 * r0)
+    kept = ranges[inside]
+    jumps = kept[JUMP:] - kept[:-JUMP]
+    total, k = 0.0, 0
+    while k < len(jumps):
+        if abs(jumps[k]) > STEP * r0:
+            run = jumps[k : k + JUMP + 1]
+            total -= float(run[np.abs(run).argmax()])
+            k += len(run) + JUMP
+        k += 1
+    return total
 
 
 def _middle(x: NDArray[np.float64], y: NDArray[np.float64], axis: float) -> Place:
@@ -148,10 +174,14 @@ def _without_steps(sides: list[_Side], parameters: Parameters) -> list[_Side]:
     for side in sides:
         kept.append(side)
         while len(kept) > 2 and _is_step(kept[-3], kept[-2], kept[-1], parameters):
-            before, _, after = kept[-3:]
-            clearance = min(before.clearance, after.clearance)
+            before, between, after = kept[-3:]
             whole = _Side(
-                before.quarter, after.axis, before.begin, after.end, clearance
+                before.quarter,
+                after.axis,
+                before.begin,
+                after.end,
+                min(before.clearance, after.clearance),
+                before.shift + after.shift + _step(before, between, after),
             )
             kept[-3:] = [whole]
     return kept
@@ -164,6 +194,12 @@ def _is_step(before: _Side, side: _Side, after: _Side, parameters: Parameters) -
     is_left = side.quarter > before.quarter
     least = parameters.least_jut if is_left else parameters.least_recess
     return _along(side.axis, before.end, after.begin) <= least
+
+
+def _step(before: _Side, between: _Side, after: _Side) -> float:
+    """Return how far to the left the wall goes on, in metres."""
+    size = _along(between.axis, before.end, after.begin)
+    return size if between.quarter > before.quarter else -size
 
 
 def _along(axis: float, start: Place, end: Place) -> float:
@@ -184,15 +220,11 @@ def _stretch(sides: list[_Side], parameters: Parameters) -> Stretch | None:
         side = sides[k]
         wall = _along(side.axis, sides[k - 1].end, sides[k + 1].begin)
         beyond = sum(_beyond(kind, parameters.r0) for kind in kinds[k - 1 : k + 1])
-        shift = -math.sin(side.axis) * (side.end[0] - side.begin[0]) + math.cos(
-            side.axis
-        ) * (side.end[1] - side.begin[1])
-        is_step = abs(shift) > 0.5 * parameters.least_jut
         legs.append(
             Leg(
                 kinds[k],
                 max(wall + beyond, LEAST),
-                shift if is_step else 0.0,
+                side.shift,
                 side.clearance,
             )
         )
