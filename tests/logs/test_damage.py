@@ -116,7 +116,7 @@ def bomb(size):
             "a message of channel 7, which is not announced",
         ),
         (struct.pack("<BQ", 6, 1 << 60), "exceeds limit"),
-        (struct.pack("<BQI", 1, 4, 1 << 31), "it ends too soon"),
+        (struct.pack("<BQHHI", 4, 8, 1, 0, 1 << 31), "it ends too soon"),
     ],
 )
 def test_files_made_to_do_harm_are_refused_in_little_memory(tmp_path, record, fault):

@@ -23,7 +23,9 @@ __all__ = ["CDR", "Message", "scan_mcap"]
 CDR = "cdr"
 LIMIT = 1 << 27
 """Most bytes of one record, packed or unpacked."""
-SCHEMA, CHANNEL, MESSAGE = 0x03, 0x04, 0x05
+MAGIC = b"\x89MCAP0\r\n"
+FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK = 0x02, 0x03, 0x04, 0x05, 0x06
+MESSAGE_INDEX, DATA_END = 0x07, 0x0F
 HEAD, LENGTH = struct.Struct("<HIQQ"), struct.Struct("<Q")
 WHOLE = "a whole MCAP file"
 
@@ -63,25 +65,17 @@ def scan_mcap(
         in CDR.
     """
     import zstandard
-    from mcap.exceptions import EndOfFile, McapError
-    from mcap.stream_reader import StreamReader
 
     try:
         with path.open("rb") as file:
             stream = _Checked(file, path.stat().st_size)
-            records = StreamReader(
-                stream,
-                emit_chunks=True,
-                validate_crcs=True,
-                record_size_limit=LIMIT,
-            ).records
-            yield from _Scan(str(path), wanted, topics).of(records)
+            yield from _Scan(str(path), wanted, topics).of(_records(stream))
     except InputError:
         raise
-    except (EndOfFile, EOFError):
+    except EOFError:
         fault = "it ends too soon (`mcap recover` may save what is there)"
         raise InputError(str(path), "", None, f"{WHOLE}: {fault}") from None
-    except (McapError, ValueError, struct.error, zstandard.ZstdError) as error:
+    except (ValueError, struct.error, zstandard.ZstdError) as error:
         raise InputError(str(path), "", None, f"{WHOLE}: {error}") from None
     except RuntimeError as error:  # what lz4 raises
         raise InputError(str(path), "", None, f"{WHOLE}: {error}") from None
@@ -115,27 +109,36 @@ class _Scan:
         self._channels: dict[int, tuple[str, str] | None] = {}
         """Topic and type by number; None where nobody wants it."""
 
-    def of(self, records: Iterator[McapRecord]) -> Iterator[Message]:
+    def of(self, records: Iterator[tuple[int, bytes]]) -> Iterator[Message]:
         """Yield the wanted messages."""
-        from mcap import records as kinds
-
-        chunk: Chunk | None = None
+        chunk: bytes | None = None
         indexed: set[int] = set()
-        for record in records:
-            if isinstance(record, kinds.MessageIndex):
-                indexed.add(record.channel_id)
+        for code, body in records:
+            if code == MESSAGE_INDEX:
+                indexed.add(struct.unpack_from("<H", body)[0])
                 continue
             if chunk is not None:
                 yield from self._unpacked(chunk, indexed)
                 chunk = None
-            if isinstance(record, kinds.Chunk):
-                chunk, indexed = record, set()
-            elif isinstance(record, kinds.Message):
-                channel = self._channel(record.channel_id)
-                if channel is not None:
-                    yield Message(*channel, record.log_time, record.data)
-            else:
-                self._learn(record)
+            if code == CHUNK:
+                chunk, indexed = body, set()
+            elif (message := self._record(code, body)) is not None:
+                yield message
+
+    def _record(self, code: int, body: bytes) -> Message | None:
+        """Take in one record, and return it if it is a wanted message."""
+        if code == MESSAGE:
+            number, _, stamp, _ = HEAD.unpack_from(body)
+            channel = self._channel(number)
+            return channel and Message(*channel, stamp, body[HEAD.size :])
+        if code in (SCHEMA, CHANNEL):
+            from mcap.data_stream import ReadDataStream
+            from mcap.records import Channel, Schema
+
+            kind = Schema if code == SCHEMA else Channel
+            stream = _Checked(BytesIO(body), len(body))
+            self._learn(kind.read(ReadDataStream(stream)))
+        return None
 
     def _learn(self, record: McapRecord) -> None:
         """Take note of a schema or a channel."""
@@ -157,31 +160,45 @@ class _Scan:
             raise DamageError(f"a message of channel {number}, which is not announced")
         return self._channels[number]
 
-    def _unpacked(self, chunk: Chunk, indexed: set[int]) -> Iterator[Message]:
+    def _unpacked(self, body: bytes, indexed: set[int]) -> Iterator[Message]:
         """Yield the wanted messages of a chunk."""
         from mcap.data_stream import ReadDataStream
-        from mcap.records import Channel, Schema
+        from mcap.records import Chunk
 
         if indexed and not any(self._channels.get(k, True) for k in indexed):
             return
-        data, place = _plain(chunk), 0
+        stream = _Checked(BytesIO(body), len(body))
+        data, place = _plain(Chunk.read(ReadDataStream(stream))), 0
         while place < len(data):
             start = place + 9
             end = start + LENGTH.unpack_from(data, place + 1)[0]
             if end > len(data):
                 raise DamageError("a record that goes beyond its chunk")
-            code = data[place]
-            if code == MESSAGE:
-                number, _, stamp, _ = HEAD.unpack_from(data, start)
-                channel = self._channel(number)
-                if channel is not None:
-                    body = data[start + HEAD.size : end]
-                    yield Message(*channel, stamp, body)
-            elif code in (SCHEMA, CHANNEL):
-                kind = Schema if code == SCHEMA else Channel
-                stream = _Checked(BytesIO(data[start:end]), end - start)
-                self._learn(kind.read(ReadDataStream(stream)))
+            message = self._record(data[place], data[start:end])
+            if message is not None:
+                yield message
             place = end
+
+
+def _records(stream: _Checked) -> Iterator[tuple[int, bytes]]:
+    """Yield opcode and content of each record of a file, up to its end."""
+    magic = stream.read(len(MAGIC))
+    if magic != MAGIC:
+        raise DamageError(f"invalid magic {magic!r}")
+    check = zlib.crc32(magic)
+    code = 0
+    while code != FOOTER:
+        head = stream.read(9)
+        code, length = head[0], LENGTH.unpack_from(head, 1)[0]
+        if length > LIMIT:
+            raise DamageError(f"a record of {length} bytes that exceeds limit {LIMIT}")
+        body = stream.read(length)
+        if code == DATA_END and struct.unpack("<I", body)[0] not in (0, check):
+            raise DamageError("data whose checksum is wrong")
+        check = zlib.crc32(body, zlib.crc32(head, check))
+        yield code, body
+    if stream.read(len(MAGIC)) != MAGIC:
+        raise DamageError("invalid magic at its end")
 
 
 def _plain(chunk: Chunk) -> bytes:
