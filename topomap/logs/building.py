@@ -42,12 +42,26 @@ def build_logged(
 
     Parameters
     ----------
-    world, rng, body, sigma, start, parameters, max_walls, watch
-        As for `topomap.build_map`.
+    world : World
+        As for `topomap.build_map`, as all options that are not explained here.
+    rng : numpy.random.Generator
+        Draws all that is drawn.
     log : path-like
         MCAP file to write. It is kept of a job that failed, too.
+    body : str
+        Name of the body.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+    start : Pose, optional
+        Where the robot is set down.
+    parameters : Parameters, optional
+        The lengths the robot keeps.
     closing : str
         One of `topomap.closers.CLOSINGS`.
+    max_walls : int
+        The loop is given up as open after so many walls.
+    watch : callable, optional
+        Gets the body, and returns one that does the same and looks on.
     listen : callable, optional
         Gets the closer, and returns one that does the same and looks on.
 

@@ -84,7 +84,7 @@ def summed(
     Returns
     -------
     array, shape (N, 3)
-        x, y and heading after each motion.
+        After each motion, its x, y and heading.
     """
     headings = start[2] + np.cumsum(turns)
     along = headings - 0.5 * turns
