@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Callable, Generator, Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Generic, TypeAlias, TypeVar
+from typing import Any, Generic, TypeAlias, TypeVar
 
-from behaviours.port import Outcome, Primitive
+from behaviours.port import Behaviour, Outcome, Primitive
 
 __all__ = ["Automaton", "Row", "perform"]
 
@@ -25,7 +25,8 @@ class Row(Generic[S]):
     """When the action of state `here` ended as `seen` says, go to `there`."""
 
     here: S
-    seen: Callable[[Outcome], bool]
+    seen: Callable[[Any], bool]
+    """Holds for an action's result: an Outcome, or what a component returned."""
     there: S
 
 
@@ -70,8 +71,8 @@ class Automaton(Generic[S]):
         if undone := left & set(self.ends):
             raise ValueError(f"ends that are left: {_names(undone)}")
 
-    def step(self, state: S, outcome: Outcome) -> S:
-        """Return the state after `state`, whose action had this outcome.
+    def step(self, state: S, result: object) -> S:
+        """Return the state after `state`, whose action came to this result.
 
         Raises
         ------
@@ -79,9 +80,9 @@ class Automaton(Generic[S]):
             If no row holds: the table has no answer to what happened.
         """
         for row in self.rows:
-            if row.here is state and row.seen(outcome):
+            if row.here is state and row.seen(result):
                 return row.there
-        raise UnforeseenError(state, outcome)
+        raise UnforeseenError(state, result)
 
     def table(self) -> Iterator[str]:
         """Yield the rows as a Markdown table, line by line."""
@@ -114,50 +115,61 @@ class Automaton(Generic[S]):
 class UnforeseenError(RuntimeError):
     """An action ended in a way that its automaton has no arrow for."""
 
-    def __init__(self, state: Enum, outcome: Outcome) -> None:
+    def __init__(self, state: Enum, result: object) -> None:
+        found = (
+            f"{result.reason.value} after {result.distance:.2f} m"
+            if isinstance(result, Outcome)
+            else repr(result)
+        )
         super().__init__(
-            f"{type(state).__name__}.{state.name} has no arrow for "
-            f"{outcome.reason.value} after {outcome.distance:.2f} m"
+            f"{type(state).__name__}.{state.name} has no arrow for {found}"
         )
         self.state = state
-        self.outcome = outcome
+        self.result = result
 
 
-Actions: TypeAlias = Mapping[S, Primitive]
-"""The primitive that each state stands for; ends have none."""
+Path: TypeAlias = list[tuple[S, Any]]
+"""What was done so far: states, and what their actions came to."""
+Action: TypeAlias = Primitive | Callable[[Path[S]], Primitive | Behaviour[Any]]
+"""A primitive, or one that depends on the way so far, or a component: a behaviour."""
+Actions: TypeAlias = Mapping[S, Action[S]]
+"""What each state stands for; ends stand for nothing."""
 
 
 def perform(
     automaton: Automaton[S], actions: Actions[S], start: S
-) -> Generator[Primitive, Outcome, list[tuple[S, Outcome]]]:
+) -> Generator[Primitive, Outcome, Path[S]]:
     """Carry out an automaton's actions from `start` until it ends.
 
     Parameters
     ----------
     automaton : Automaton
         Says which state follows which.
-    actions : mapping of state to Primitive
-        One primitive for each state that is no end.
+    actions : mapping of state to Primitive or callable
+        One for each state that is no end. A callable is given what was done so
+        far, and returns a primitive, or the behaviour of a component.
     start : state
         One of the automaton's starts.
 
     Returns
     -------
-    list of (state, Outcome)
+    list of (state, result)
         What was done, in order; the last entry is the end reached, with the
-        last outcome once more.
+        last result once more.
 
     Yields
     ------
     Primitive
-        The action of the present state.
+        The action of the present state, or the next one of its component.
     """
-    done: list[tuple[S, Outcome]] = []
+    done: Path[S] = []
     state = start
     while state not in automaton.ends:
-        outcome = yield actions[state]
-        done.append((state, outcome))
-        state = automaton.step(state, outcome)
+        action = actions[state]
+        now = action(done) if callable(action) else action
+        result = (yield from now) if isinstance(now, Generator) else (yield now)
+        done.append((state, result))
+        state = automaton.step(state, result)
     return [*done, (state, done[-1][1])]
 
 

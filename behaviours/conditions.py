@@ -12,6 +12,7 @@ __all__ = [
     "receded",
     "seen",
     "stepped",
+    "widened",
 ]
 
 
@@ -48,3 +49,8 @@ def stepped(outcome: Outcome) -> bool:
 def narrowed(outcome: Outcome) -> bool:
     """Walls stand on both sides, at most 2 r0 apart."""
     return outcome.reason is Reason.NARROWED
+
+
+def widened(outcome: Outcome) -> bool:
+    """The walls on both sides are more than 2 r0 apart."""
+    return outcome.reason is Reason.WIDENED

@@ -42,6 +42,7 @@ __all__ = [
     "Sensor",
     "Side",
     "Turn",
+    "Until",
     "run",
 ]
 
@@ -74,6 +75,11 @@ class Sensor(Enum):
     LEFT = "left"
     RIGHT = "right"
 
+    @staticmethod
+    def of_side(side: Side) -> Sensor:
+        """Return the sensor that looks to a side."""
+        return Sensor.LEFT if side is Side.LEFT else Sensor.RIGHT
+
 
 class Guide(Enum):
     """What a robot keeps its distance from while it follows."""
@@ -82,6 +88,17 @@ class Guide(Enum):
     """One wall, at the offset r0."""
     HALL = "hall"
     """Both walls, at equal distances."""
+
+
+class Until(Enum):
+    """What an `Approach` waits for."""
+
+    SEEN = "seen"
+    """Any of its sensors has a wall in range."""
+    LOST = "lost"
+    """Any of its sensors has no wall in range."""
+    HALL = "hall"
+    """The ranges to the left and to the right together are within the limit."""
 
 
 class Reason(Enum):
@@ -94,13 +111,13 @@ class Reason(Enum):
     BLOCKED = "blocked"
     """A wall ahead has come as near as it may."""
     RECEDED = "receded"
-    """The followed wall is farther away than r_max, or gone: a discontinuity."""
+    """The wall beside is out of range or gone: a discontinuity."""
     STEPPED = "stepped"
     """The followed wall is nearer or farther, yet in the safe zone."""
     NARROWED = "narrowed"
     """Walls on both sides, at most 2 r0 apart: a hall begins."""
     WIDENED = "widened"
-    """The hall's walls are more than 2 r0 apart: the hall ends."""
+    """The hall's walls are more than 2 r0 apart: it ends, or another meets it."""
     BUMPED = "bumped"
     """The body touched something."""
     STUCK = "stuck"
@@ -127,20 +144,22 @@ class Readings:
 
 @dataclass(frozen=True, slots=True)
 class Approach:
-    """Go straight until a sensor has a wall in range: A{F,B} of table C.3.
+    """Go straight until the sensors tell of a wall: A{F,B} of table C.3.
 
-    Ends SEEN, or BLOCKED when a wall ahead is `keep` away (forward only), or
-    DONE after `limit` metres. Ends at once, at distance 0, where it already
-    holds.
+    Ends SEEN, RECEDED or NARROWED, as `until` asks for SEEN, LOST or HALL; or
+    BLOCKED when a wall ahead is `keep` away (forward only), or DONE after
+    `limit` metres. Ends at once, at distance 0, where it already holds.
     """
 
     sensors: tuple[Sensor, ...]
     within: float
-    """A wall at most so far away, in metres from the centre, counts as seen."""
+    """A wall at most so far away, in metres from the centre, is in range; for
+    HALL, the greatest width of the hall."""
     direction: Direction = Direction.FORWARD
     keep: float = 0.0
     """Clearance ahead, in metres, that ends the approach as BLOCKED."""
     limit: float = math.inf
+    until: Until = Until.SEEN
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,6 +171,9 @@ class Move:
     direction: Direction = Direction.FORWARD
     keep: float = 0.0
     """Clearance ahead, in metres, that ends the move as BLOCKED (forward only)."""
+    by_odometry: bool = False
+    """Whether the distance comes from outcomes since the last turn, so that the
+    odometer's error in it is to be made again, as on the way back to a place."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,18 +185,23 @@ class Turn:
 
 @dataclass(frozen=True, slots=True)
 class Align:
-    """Stand parallel to the wall on one side, r0 from it: AL.
+    """Stand parallel to the wall on one side, r0 or `offset` from it: AL.
 
     Ends DONE, or RECEDED when that side sees no wall up to r_max. The
     sideways way is `Outcome.shift`; the distance along the heading is 0.
     """
 
     side: Side
+    offset: float | None = None
+    """Distance from the wall, in metres; r0 where None."""
 
 
 @dataclass(frozen=True, slots=True)
 class Centre:
-    """Stand in the middle of the hall: CN. Ends DONE, or WIDENED without a hall."""
+    """Stand in the middle of the hall: CN. Ends DONE, or WIDENED without a hall.
+
+    The sideways way is `Outcome.shift`; the distance along the heading is 0.
+    """
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,6 +213,10 @@ class Follow:
     (`Align` then regains r0); NARROWED when both sides are at most 2 r0 apart.
     The robot then stands abeam of the place where the wall changed: what it
     needs to stop, or to look twice, is not part of the outcome.
+
+    In a hall: BLOCKED when the clearance ahead is r_min; WIDENED when the walls
+    are more than 2 r0 apart; STEPPED when one of them changes and the hall goes
+    on, or the robot is off its middle (`Centre` then regains it).
     """
 
     guide: Guide = Guide.WALL

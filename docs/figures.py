@@ -24,8 +24,10 @@ from behaviours import Parameters, run
 from topomap.boundary import map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
+from topomap.drawing import draw_world
 from topomap.folding import fold
 from topomap.map_drawing import draw_map
+from topomap.mapping import build_map
 from topomap.truth import true_map, true_maps
 from worlds.ideal import IdealBody
 from worlds.pose import Pose
@@ -98,13 +100,45 @@ def truth(world: World) -> Figure:
 def kinds() -> Figure:
     """Draw one world of each kind."""
     names = list(worlds.kinds())
-    figure = Figure(figsize=(8, 6), layout="constrained")
-    grid = figure.subplots(3, math.ceil(len(names) / 3))
+    figure = Figure(figsize=(8, 8), layout="constrained")
+    grid = figure.subplots(4, math.ceil(len(names) / 4))
     for ax, name in zip_longest(grid.flat, names):
         ax.set_axis_off()
         if name is not None:
             world = worlds.make(name, np.random.default_rng(4))
             _draw_walls(world, ax)
+            ax.set_title(name, fontsize=9)
+            ax.set_aspect("equal")
+            ax.autoscale_view()
+    return figure
+
+
+def office() -> Figure:
+    """Draw the map of an office of rooms and halls over its walls."""
+    world = worlds.make("office", np.random.default_rng(3))
+    built = build_map(world, np.random.default_rng(1))
+    found = built.comparison
+    figure = Figure(figsize=(9, 6), layout="constrained")
+    ax = figure.add_subplot()
+    draw_world(world, ax)
+    draw_map(
+        built.map,
+        ax,
+        rotation=found.rotation or 0.0,
+        offset=found.offset or (0.0, 0.0),
+    )
+    return figure
+
+
+def floors() -> Figure:
+    """Draw worlds with halls."""
+    shown = ("office", "hospital", "rooms", "halls", "maze")
+    figure = Figure(figsize=(8, 10), layout="constrained")
+    grid = figure.subplots(3, 2)
+    for ax, name in zip_longest(grid.flat, shown):
+        ax.set_axis_off()
+        if name is not None:
+            _draw_walls(worlds.make(name, np.random.default_rng(3)), ax)
             ax.set_title(name, fontsize=9)
             ax.set_aspect("equal")
             ax.autoscale_view()
@@ -135,6 +169,16 @@ FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
     "truth": (
         "What every map is held to: the true map of each ring, from geometry alone.",
         lambda: truth(PILLARS),
+    ),
+    "office": (
+        "Eight rooms along a hall, mapped by a robot whose lengths are off by 6 %: "
+        "SPLITs where halls begin and meet, PORTALs where they open.",
+        office,
+    ),
+    "floors": (
+        "Worlds with halls, 43 to 57 cm wide: a robot that sees no farther than half "
+        "a metre finds them by their openings.",
+        floors,
     ),
     "kinds": ("One world of each kind, as `world make` draws them.", kinds),
 }

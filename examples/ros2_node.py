@@ -14,8 +14,8 @@ from typing import Any
 
 from topomap import save_map
 from topomap.closers import make_closer
+from topomap.found import map_by
 from topomap.logs.recording import recording
-from topomap.mapping import map_by
 from worlds.driven import DrivenBody, MachineError, PathCounter, Report
 from worlds.profiles import GENERIC
 
@@ -86,12 +86,13 @@ def main(chart: str, log: str) -> None:
         with recording(log, about) as recorder:
             body = recorder.watch(DrivenBody(machine, PROFILE))
             closer = make_closer("likelihood", SIGMA, body.parameters)
-            walk, found = map_by(body, recorder.listen(closer), 999, SIGMA)
-            recorder.show(found)
+            heard = recorder.listen(closer)
+            found = map_by(body, heard, 999, SIGMA, halls=False)
+            recorder.show(found.map)
     finally:
         rclpy.shutdown()
-    save_map(found, chart)
-    sys.stdout.write(f"{chart}: {walk.decisions[-1].reason}\n")
+    save_map(found.map, chart)
+    sys.stdout.write(f"{chart}: {found.reason}\n")
 
 
 if __name__ == "__main__":

@@ -16,8 +16,8 @@ import tty
 
 from topomap import save_map
 from topomap.closers import make_closer
+from topomap.found import map_by
 from topomap.logs.recording import recording
-from topomap.mapping import map_by
 from worlds.driven import DrivenBody, MachineError, Report
 from worlds.profiles import GENERIC
 
@@ -61,14 +61,16 @@ def main(port: str, chart: str, log: str) -> None:
         "sigma": SIGMA,
         "closing": "likelihood",
         "max_walls": 999,
+        "halls": False,
     }
     with recording(log, about) as recorder:
         body = recorder.watch(DrivenBody(SerialMachine(port), GENERIC))
         closer = make_closer("likelihood", SIGMA, body.parameters)
-        walk, found = map_by(body, recorder.listen(closer), 999, SIGMA)
-        recorder.show(found)
-    save_map(found, chart)
-    sys.stdout.write(f"{chart}: {walk.decisions[-1].reason}\n")
+        heard = recorder.listen(closer)
+        found = map_by(body, heard, 999, SIGMA, halls=False)
+        recorder.show(found.map)
+    save_map(found.map, chart)
+    sys.stdout.write(f"{chart}: {found.reason}\n")
 
 
 if __name__ == "__main__":

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from worlds.profiles import Profile
     from worlds.world import World
 
-__all__ = ["BODIES", "body_parameters", "make_body"]
+__all__ = ["BODIES", "body_parameters", "body_profile", "make_body"]
 
 BODIES = ("ideal", "physical", "generic", "generic5", "epuck")
 """The ideal body; the default physical robot; physical robots by profile."""
@@ -29,7 +29,7 @@ def body_parameters(name: str) -> Parameters:
     InputError
         If there is no such body.
     """
-    profile = _profile(name)
+    profile = body_profile(name)
     return Parameters() if profile is None else profile.parameters
 
 
@@ -70,7 +70,7 @@ def make_body(
     InputError
         If there is no such body.
     """
-    profile = _profile(name)
+    profile = body_profile(name)
     if profile is None:
         from worlds.ideal import IdealBody
 
@@ -83,8 +83,14 @@ def make_body(
     )
 
 
-def _profile(name: str) -> Profile | None:
-    """Return a physical body's profile; None for the ideal one."""
+def body_profile(name: str) -> Profile | None:
+    """Return a physical body's profile; None for the ideal one.
+
+    Raises
+    ------
+    InputError
+        If there is no such body.
+    """
     if name not in BODIES:
         raise InputError("", "body", name, f"one of {', '.join(BODIES)}")
     if name == "ideal":

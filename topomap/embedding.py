@@ -15,7 +15,7 @@ from topomap.topological_map import Edge, TopologicalMap, Vertex
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Embedding", "embed", "embedded", "placed"]
+__all__ = ["Embedding", "embed", "embedded", "placed", "spring_ways"]
 
 EXACT = 1e-4
 """Standard deviation, in metres, that stands in for an exact length."""
@@ -134,17 +134,35 @@ def _embed(vertices: tuple[Vertex, ...], edges: tuple[Edge, ...]) -> Embedding:
     place = np.full(count, -1)
     place[free] = np.arange(len(free))
 
-    solution, blocks = solve_springs(place[ends], *_springs(edges), len(free))
+    solution, blocks = solve_springs(place[ends], *spring_ways(edges), len(free))
     positions, covariances = np.zeros((count, 2)), np.zeros((count, 2, 2))
     positions[free], covariances[free] = solution, blocks
     # Springs do not mind where they are: each part is moved to its anchor.
     return Embedding(positions + anchors[fixed][part], covariances)
 
 
-def _springs(
+def spring_ways(
     edges: tuple[Edge, ...],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return for each edge its way (E, 2) and its stiffness (E, 2, 2)."""
+    """Return the springs that edges are.
+
+    Parameters
+    ----------
+    edges : tuple of Edge
+        Straight ways.
+
+    Returns
+    -------
+    ways : ndarray, shape (E, 2)
+        From source to target in the map's frame, in metres.
+    stiffness : ndarray, shape (E, 2, 2)
+        Inverse covariance of each way.
+
+    Raises
+    ------
+    InputError
+        If an edge leaves its two ends in directions that are not opposite.
+    """
     rows = []
     for k, edge in enumerate(edges):
         opposite = math.remainder(
@@ -160,7 +178,7 @@ def _springs(
             )
         fused = edge.fused
         rows.append((edge.source_exit, fused.value, fused.sigma, edge.shift))
-    angle, length, sigma, shift = np.array(rows).T
+    angle, length, sigma, shift = np.array(rows).reshape(-1, 4).T
     c, s = np.cos(angle), np.sin(angle)
     way = np.column_stack([length * c - shift * s, length * s + shift * c])
     along = np.maximum(sigma, EXACT) ** -2.0

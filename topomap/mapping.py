@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from behaviours.automaton import UnforeseenError
-from behaviours.port import run
 from topomap.bodies import body_parameters, make_body
-from topomap.boundary import map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
-from topomap.errors import InputError, JobError
-from topomap.folding import fold
+from topomap.found import MAX_WALLS, Found, check_options, map_by
 from topomap.truth import true_maps
-from worlds.fit import check_fit
+from worlds.fit import is_open
 from worlds.starts import check_start, choose_start
 
 if TYPE_CHECKING:
@@ -25,32 +20,19 @@ if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from behaviours.port import Body
     from evidence.walls import LoopCloser
-    from topomap.boundary import Walk
     from topomap.comparison import Comparison
-    from topomap.topological_map import TopologicalMap
     from worlds.pose import Pose
     from worlds.world import World
 
-__all__ = ["MAX_SIGMA", "MAX_WALLS", "Build", "build_map", "check_options", "map_by"]
-
-MAX_SIGMA = 0.5
-"""Lengths that are off by half of themselves say nothing about a loop."""
-MAX_WALLS = 5000
-"""After so many walls an open loop is given up."""
+__all__ = ["Build", "build_map"]
 
 
 @dataclass(frozen=True, slots=True)
-class Build:
+class Build(Found):
     """A map that a robot built, and what it took."""
 
-    map: TopologicalMap
-    """Of the closed loop; of the open walk where no closure was found."""
-    closed: bool
-    """Whether the robot decided that it had come round."""
     comparison: Comparison
     """With the world's truth."""
-    walk: Walk
-    """Every wall walked, and what was made of it."""
     start: Pose
     """Where the robot was set down."""
     travelled: float
@@ -65,17 +47,6 @@ class Build:
         """Whether the map is closed and isomorphic to the truth."""
         return self.closed and self.comparison.correct
 
-    @property
-    def hypotheses(self) -> int:
-        """How many closures were ever thought possible."""
-        return len(
-            {
-                hypothesis.period
-                for decision in self.walk.decisions
-                for hypothesis in decision.hypotheses
-            }
-        )
-
 
 def build_map(
     world: World,
@@ -89,12 +60,13 @@ def build_map(
     max_walls: int = MAX_WALLS,
     watch: Callable[[Body], Body] | None = None,
 ) -> Build:
-    """Set a robot down in a world and let it map the boundary it first meets.
+    """Set a robot down in a world and let it map all it can reach along walls.
 
     Parameters
     ----------
     world : World
-        Rectilinear, all passages wider than 2 r0.
+        Rectilinear. Where all passages are wider than 2 r0 there is one boundary
+        loop to walk; else the robot explores rooms and halls, 2 r_w to 2 r0 wide.
     rng : numpy.random.Generator
         Draws the start, where none is given, and all of the body's errors.
     body : {"ideal", "physical"} or a profile's name
@@ -148,7 +120,7 @@ def build_map(
     check_options(sigma, max_walls)
     start_rng, body_rng = rng.spawn(2)
     parameters = parameters or body_parameters(body)
-    check_fit(world, parameters)
+    truth = true_maps(world, parameters)
     if start is None:
         start = choose_start(world, parameters, start_rng)
     check_start(world, parameters, start)
@@ -158,61 +130,13 @@ def build_map(
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )
-    walk, chart = map_by(robot, closer, max_walls, sigma)
+    halls = not is_open(world, parameters)
+    found = map_by(robot, closer, max_walls, sigma, halls=halls)
     return Build(
-        chart,
-        walk.period is not None,
-        compare_maps(chart, *true_maps(world, parameters)),
-        walk,
+        *(found.map, found.closed, found.loops, found.recognitions, found.walls),
+        compare_maps(found.map, *truth),
         start,
         robot.travelled,
         robot.clock,
         robot.collisions,
     )
-
-
-def map_by(
-    body: Body, closer: LoopCloser, max_walls: int, sigma: float
-) -> tuple[Walk, TopologicalMap]:
-    """Let a body map the boundary that it first meets.
-
-    Parameters
-    ----------
-    body : Body
-        Simulated, real or recorded.
-    closer : LoopCloser
-        Decides when it has come round.
-    max_walls : int
-        The loop is given up as open after so many walls.
-    sigma : float
-        Standard deviation of a measured length, as a part of the length.
-
-    Returns
-    -------
-    Walk, TopologicalMap
-        What it met, and the map of that, closed or open.
-
-    Raises
-    ------
-    JobError
-        If the body is stuck or loses its wall.
-    """
-    try:
-        walk = run(map_boundary(body.parameters, closer, max_walls), body)
-    except UnforeseenError as error:
-        raise JobError(str(error)) from error
-    return walk, fold(walk, body.parameters, sigma)
-
-
-def check_options(sigma: float | None, max_walls: int | None) -> None:
-    """Check what a map is made by; None is right.
-
-    Raises
-    ------
-    InputError
-        If sigma or the number of walls is out of range.
-    """
-    if sigma is not None and not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
-        raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
-    if max_walls is not None and max_walls < 1:
-        raise InputError("", "max_walls", max_walls, "a number of at least 1")

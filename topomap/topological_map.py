@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from behaviours.parameters import Parameters
 from behaviours.vertices import VertexType
@@ -143,6 +144,19 @@ class TopologicalMap:
     def unexplored_exits(self) -> int:
         """How many exits no edge has been walked through."""
         return sum(len(vertex.unexplored) for vertex in self.vertices)
+
+    def _repr_svg_(self) -> str:
+        """Return the picture that a notebook shows."""
+        return str(_notebook().svg_of_map(self))
+
+    def _repr_html_(self) -> str:
+        """Return the picture and a line about it, for a notebook."""
+        return str(_notebook().html_of_map(self))
+
+
+def _notebook() -> Any:
+    """Return the room of pictures, by name: a map does not depend on its picture."""
+    return import_module("topomap.notebook")
 
 
 def same_direction(a: float, b: float, tolerance: float = ANGLE_TOLERANCE) -> bool:

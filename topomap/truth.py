@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from behaviours.vertices import VertexType
 from topomap.headings import AHEAD, angle_of, quarter_of
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
+from worlds.fit import is_open
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
@@ -39,21 +40,32 @@ class _Corner(NamedTuple):
 
 
 def true_maps(world: World, parameters: Parameters) -> tuple[TopologicalMap, ...]:
-    """Find the true map of each boundary loop of a world.
+    """Find the true maps of a world, one for each part that can be walked through.
 
     Parameters
     ----------
     world : World
-        Rectilinear, and open: no passage as narrow as 2 r0 (`worlds.check_fit`).
+        Rectilinear.
     parameters : Parameters
-        Decide which corners are well defined, and how far vertices are offset.
+        Decide what is a hall and which corners are well defined, and how far
+        vertices are offset.
 
     Returns
     -------
     tuple of TopologicalMap
-        One a ring: the outer boundary's first, then the islands'.
+        In open space one a ring: the outer boundary's first, then the islands'.
+        With halls, one for all loops that they join: `topomap.hall_truth`.
+
+    Raises
+    ------
+    WorldError
+        If the world is not rectilinear, or its halls are too intricate.
     """
-    return tuple(true_map(ring, parameters) for ring in world.rings)
+    if is_open(world, parameters):
+        return tuple(true_map(ring, parameters) for ring in world.rings)
+    from topomap.hall_truth import true_hall_maps
+
+    return true_hall_maps(world, parameters)
 
 
 def true_map(ring: Ring, parameters: Parameters) -> TopologicalMap:

@@ -10,15 +10,20 @@ from typing import TYPE_CHECKING, Any
 from behaviours.port import (
     Align,
     Approach,
+    Centre,
+    Direction,
     Follow,
     Guide,
     Move,
     Outcome,
     Primitive,
     Reason,
+    Sensor,
     Turn,
 )
+from worlds.approaching import approach_aside
 from worlds.following import follow
+from worlds.halls import centre, follow_hall
 from worlds.robot import Robot
 from worlds.straight import Control, approach, go, move, stop
 from worlds.turning import align, turn
@@ -29,11 +34,10 @@ if TYPE_CHECKING:
 __all__ = ["ControlledBody"]
 
 CONTROLLERS: Mapping[type, Callable[[Robot, Any], Control[Outcome]]] = {
-    Approach: approach,
     Move: move,
     Turn: turn,
     Align: align,
-    Follow: follow,
+    Centre: centre,
 }
 PATIENCE = 1800.0
 """Seconds after which a primitive that has not ended is stuck."""
@@ -81,23 +85,13 @@ class ControlledBody(ABC):
         return outcome
 
     def begin(self, primitive: Primitive) -> None:
-        """Take up a primitive, to be carried out by `step` or by `poll`.
-
-        Raises
-        ------
-        ValueError
-            If it is one of those for halls, which this body does not know yet.
-        """
-        controller = CONTROLLERS.get(type(primitive))
-        is_hall = isinstance(primitive, Follow) and primitive.guide is Guide.HALL
-        if controller is None or is_hall:
-            raise ValueError(f"this body cannot drive in halls; got {primitive}")
+        """Take up a primitive, to be carried out by `step` or by `poll`."""
         robot = self.robot
         if not isinstance(primitive, Align):
             robot.stepped_to = None
-        if not isinstance(primitive, (Turn, Follow)):
+        if not (isinstance(primitive, (Turn, Follow)) or _way(primitive) == 0):
             robot.edge_behind = None
-        self._control = controller(robot, primitive)
+        self._control = _controller(primitive)(robot, primitive)
         self._start = robot.odometer
         self._since = self.clock
         self._is_recoiling = False
@@ -154,3 +148,28 @@ class ControlledBody(ABC):
     def _outcome(self, reason: Reason) -> Outcome:
         distance = max(self.robot.odometer - self._start, 0.0)
         return Outcome(distance, reason, self.robot.readings())
+
+
+def _controller(primitive: Primitive) -> Callable[[Robot, Any], Control[Outcome]]:
+    """Return what carries out a primitive."""
+    match primitive:
+        case Follow(Guide.HALL):
+            return follow_hall
+        case Follow():
+            return follow
+        case Approach(sensors, direction=direction):
+            is_aside = Sensor.FRONT not in sensors and direction is Direction.FORWARD
+            return approach_aside if is_aside else approach
+        case _:
+            return CONTROLLERS[type(primitive)]
+
+
+def _way(primitive: Primitive) -> float:
+    """Return the farthest that a primitive may lead the robot away."""
+    match primitive:
+        case Move(distance):
+            return distance
+        case Approach():
+            return primitive.limit
+        case _:
+            return math.inf

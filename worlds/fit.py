@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from behaviours.parameters import Parameters
 
-__all__ = ["Passage", "check_fit", "narrowest"]
+__all__ = ["Passage", "check_fit", "is_open", "narrowest"]
 
 ROUNDING = 1e-9
 """A passage is too narrow even if it is this much, in metres, wider."""
@@ -75,10 +75,7 @@ def check_fit(world: World, parameters: Parameters) -> None:
     worlds.errors.WorldError: passage at (1, 0.25): 0.5 m wide; expected more than \
 0.6 m, twice r0
     """
-    if not world.is_rectilinear:
-        raise WorldError("world", "expected walls along x and y only")
-    recess, jut = parameters.least_recess, parameters.least_jut
-    passage = narrowest([straightened(ring, recess, jut) for ring in world.rings])
+    passage = _narrowest_for(world, parameters)
     needed = 2 * parameters.r0
     if passage.width <= needed + ROUNDING:
         x, y = passage.middle
@@ -86,6 +83,37 @@ def check_fit(world: World, parameters: Parameters) -> None:
             f"passage at ({x:.4g}, {y:.4g})",
             f"{passage.width:.4g} m wide; expected more than {needed:.4g} m, twice r0",
         )
+
+
+def is_open(world: World, parameters: Parameters) -> bool:
+    """Tell whether a world has no passage as narrow as two offsets: no halls.
+
+    Parameters
+    ----------
+    world : World
+        Rectilinear.
+    parameters : Parameters
+        The robot's lengths.
+
+    Returns
+    -------
+    bool
+        Whether `check_fit` would accept it.
+
+    Raises
+    ------
+    WorldError
+        If the world is not rectilinear.
+    """
+    return _narrowest_for(world, parameters).width > 2 * parameters.r0 + ROUNDING
+
+
+def _narrowest_for(world: World, parameters: Parameters) -> Passage:
+    """Return the narrowest passage between walls without ill-defined jogs."""
+    if not world.is_rectilinear:
+        raise WorldError("world", "expected walls along x and y only")
+    recess, jut = parameters.least_recess, parameters.least_jut
+    return narrowest([straightened(ring, recess, jut) for ring in world.rings])
 
 
 def narrowest(rings: Sequence[Ring]) -> Passage:

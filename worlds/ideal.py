@@ -27,6 +27,7 @@ from behaviours.port import (
     Sensor,
     Side,
     Turn,
+    Until,
 )
 from worlds.errors import WorldError
 from worlds.sight import Sight
@@ -50,6 +51,14 @@ EPS = 1e-9
 """Lengths that differ by less, in metres, are one length."""
 NEAR = 1e-6
 """A wall that is off r0 by more, in metres, is one that has stepped."""
+
+
+AWAITED = {
+    Until.SEEN: Reason.SEEN,
+    Until.LOST: Reason.RECEDED,
+    Until.HALL: Reason.NARROWED,
+}
+"""How an approach ends where what it waits for has come."""
 
 
 class IdealBody:
@@ -134,8 +143,8 @@ class IdealBody:
                 return self._approach(primitive)
             case Turn(side):
                 return self._turn(side)
-            case Align(side):
-                return self._align(side)
+            case Align():
+                return self._align(primitive)
             case Centre():
                 return self._centre()
 
@@ -183,40 +192,59 @@ class IdealBody:
         return max(0.0, ahead - keep)
 
     def _move(self, move: Move) -> Outcome:
+        way = move.distance
+        if move.by_odometry and self._scale:
+            way /= self._scale
         if move.direction is Direction.BACKWARD:
-            return self._retreat(move.distance, Reason.DONE)
+            return self._retreat(way, Reason.DONE)
         room = self._room_ahead(move.keep)
-        if room < move.distance - EPS:
+        if room < way - EPS:
             return self._advance(room, Reason.BLOCKED)
-        return self._advance(move.distance, Reason.DONE)
+        return self._advance(way, Reason.DONE)
 
     def _approach(self, approach: Approach) -> Outcome:
         sense = approach.direction.value
+        room = self._room_ahead(approach.keep) if sense > 0 else math.inf
+        limit = min(approach.limit, room + EPS)
+        way = self._until(approach, limit)
+        if way <= limit:
+            reason = AWAITED[approach.until]
+        elif room < approach.limit:
+            way, reason = room, Reason.BLOCKED
+        else:
+            way, reason = approach.limit, Reason.DONE
+        if math.isinf(way):
+            raise WorldError("start", "no wall comes in sight: is the start inside?")
+        return self._advance(way, reason) if sense > 0 else self._retreat(way, reason)
+
+    def _until(self, approach: Approach, limit: float) -> float:
+        """Return the way until an approach's condition holds; above `limit` if not."""
         look = self._sight.looking[self._quarters]
-        seen = approach.limit
+        sense, within = approach.direction.value, approach.within
+        if approach.until is Until.HALL:
+            return look.until_hall(self._u, self._v, within, limit, sense)
+        ways = []
         for sensor in approach.sensors:
             if sensor is Sensor.FRONT:
                 if sense > 0:
-                    seen = min(seen, self._room_ahead(approach.within))
+                    ways.append(self._room_ahead(within))
+                continue
+            side = Side.LEFT if sensor is Sensor.LEFT else Side.RIGHT
+            if approach.until is Until.SEEN:
+                ways.append(look.until_beside(self._u, self._v, side, within, sense))
             else:
-                side = Side.LEFT if sensor is Sensor.LEFT else Side.RIGHT
-                seen = min(
-                    seen,
-                    look.until_beside(self._u, self._v, side, approach.within, sense),
+                ways.append(
+                    look.until_lost(self._u, self._v, side, within, limit, sense)
                 )
-        room = self._room_ahead(approach.keep) if sense > 0 else math.inf
-        if room < seen - EPS:
-            return self._advance(room, Reason.BLOCKED)
-        if math.isinf(seen):
-            raise WorldError("start", "no wall comes in sight: is the start inside?")
-        reason = Reason.SEEN if seen < approach.limit else Reason.DONE
-        return self._advance(seen, reason) if sense > 0 else self._retreat(seen, reason)
+        return min(ways, default=math.inf)
 
-    def _align(self, side: Side) -> Outcome:
+    def _align(self, align: Align) -> Outcome:
+        side = align.side
+        offset = self.parameters.r0 if align.offset is None else align.offset
         reach = self._sight.looking[self._quarters].beside(self._u, self._v, side)
         if reach > self.parameters.r_max + EPS:
             return self._sidle(0.0, Reason.RECEDED)
-        return self._sidle(side.value * (reach - self.parameters.r0), Reason.DONE)
+        return self._sidle(side.value * (reach - offset), Reason.DONE)
 
     def _follow_wall(self, side: Side) -> Outcome:
         r0, r_max = self.parameters.r0, self.parameters.r_max
@@ -240,34 +268,26 @@ class IdealBody:
         return self._advance(change, reason, clearance)
 
     def _follow_hall(self) -> Outcome:
-        r0, r_max = self.parameters.r0, self.parameters.r_max
+        width = 2 * self.parameters.r0
         look = self._sight.looking[self._quarters]
-        reach = {side: look.beside(self._u, self._v, side) for side in Side}
-        if max(reach.values()) > r_max + EPS or sum(reach.values()) > 2 * r0 + EPS:
-            return self._advance(0.0, _hall_ends(reach, r0, r_max))
-        room = self._room_ahead(r0)
-        changes = {
-            side: look.next_change(self._u, self._v, side, reach[side]) for side in Side
-        }
-        change = min(way for way, _ in changes.values())
+        left, right = (look.beside(self._u, self._v, side) for side in Side)
+        if left + right > width + EPS:
+            return self._advance(0.0, Reason.WIDENED)
+        if abs(left - right) > 2 * NEAR:
+            return self._advance(0.0, Reason.STEPPED)
+        room = self._room_ahead(self.parameters.r_min)
+        change = min(
+            look.next_change(self._u, self._v, side, reach)[0]
+            for side, reach in zip(Side, (left, right), strict=True)
+        )
         if room <= change + EPS:
             return self._advance(room, Reason.BLOCKED)
-        for side, (way, beyond) in changes.items():
-            if way <= change + EPS:
-                reach[side] = beyond
-        return self._advance(change, _hall_ends(reach, r0, r_max))
+        ends = look.between(self._u + change, self._v) > width + EPS
+        return self._advance(change, Reason.WIDENED if ends else Reason.STEPPED)
 
     def _centre(self) -> Outcome:
         look = self._sight.looking[self._quarters]
-        left = look.beside(self._u, self._v, Side.LEFT)
-        right = look.beside(self._u, self._v, Side.RIGHT)
+        left, right = (look.beside(self._u, self._v, side) for side in Side)
         if left + right > 2 * self.parameters.r0 + EPS:
             return self._sidle(0.0, Reason.WIDENED)
         return self._sidle((left - right) / 2, Reason.DONE)
-
-
-def _hall_ends(reach: dict[Side, float], r0: float, r_max: float) -> Reason:
-    """Return how a hall changed whose walls are now so far to either side."""
-    if max(reach.values()) > r_max + EPS:
-        return Reason.RECEDED
-    return Reason.WIDENED if sum(reach.values()) > 2 * r0 + EPS else Reason.STEPPED

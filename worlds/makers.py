@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from worlds.caves import CAVE
 from worlds.errors import WorldError
+from worlds.floors.kinds import FLOORS
 from worlds.random_worlds import RANDOM
 from worlds.shapes import SHAPES
+from worlds.stable import STABLE
 from worlds.world import World
 
 if TYPE_CHECKING:
@@ -16,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["kinds", "make"]
 
-_KINDS = {kind.name: kind for kind in (RANDOM, *SHAPES)}
+_KINDS = {kind.name: kind for kind in (RANDOM, *SHAPES, STABLE, CAVE, *FLOORS)}
 
 
 def kinds() -> dict[str, Kind]:

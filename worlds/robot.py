@@ -10,15 +10,19 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections import deque
+from collections.abc import Iterable
 
 from behaviours.port import Readings
+from worlds.edges import Glance
 from worlds.profile import Profile, looks_along
 from worlds.view import View
 
 __all__ = ["Robot"]
 
-MEMORY = 64
+MEMORY = 192
 """Side readings that the robot keeps of the present leg."""
+STAND = 1 / 30
+"""How far from where it wants to be a robot may stand, in parts of r0."""
 AGREE = 1 / 6
 """Ranges ahead that differ by more, in parts of r0, are of different things."""
 
@@ -51,10 +55,17 @@ class Robot(ABC):
         """How far behind the wall to follow next is known to end, in metres."""
         self.stepped_to: float | None = None
         """How far the followed wall is after a step just noticed, in metres."""
-        self.side_lead = next(
-            r.x for r in profile.rangers if looks_along(r, math.pi / 2)
-        )
+        side = next(r for r in profile.rangers if looks_along(r, math.pi / 2))
+        self.side_lead = side.x
         """How far ahead of the centre the side rangers sit, in metres."""
+        self.spot = math.tan(side.cone)
+        """Half the width of a side ranger's spot of light, in parts of its range."""
+        self.slide = self.spot * (abs(side.y) + side.far)
+        """Farthest, in metres, from a wall's edge that its end face is seen."""
+        self.margin = self.spot * self.parameters.r0 + STAND * self.parameters.r0
+        """How far ahead of an edge that is abeam what follows is seen, in metres."""
+        self.seed: Glance | None = None
+        """What was ahead before the last turn, and so beside after it."""
         self.wander = _wander(profile, stride)
         """Variance of the heading that a metre adds, in squared radians."""
         self._target = (0.0, 0.0)
@@ -100,12 +111,49 @@ class Robot(ABC):
     def readings(self, front: float = -1.0) -> Readings:
         """Return the newest readings; with `front`, what is known of the front."""
         ahead = self.eyes.front if front < 0 else front
-        return Readings(ahead, self.left, self.right)
+        beside = self.beside()
+        return Readings(ahead, beside.left, beside.right)
+
+    def glance(self) -> Glance:
+        """Return the newest answer of the side rangers."""
+        return Glance(self.odometer + self.side_lead, self.left, self.right)
+
+    def glances(self) -> list[Glance]:
+        """Return all that the side rangers answered on this leg, if remembered."""
+        return [Glance(row[0] + self.side_lead, *row[2:]) for row in self.trace]
+
+    def beside(self) -> Glance:
+        """Return what is beside the robot's centre, just ahead of an edge abeam.
+
+        It is remembered from when the side rangers were there; what they see now
+        where they were not.
+        """
+        place = self.odometer + self.margin
+        seen = [g for g in self.glances() if abs(g.place - place) <= self.margin]
+        newest = self.glance()
+        if abs(newest.place - place) < 1e-9 or not seen:
+            return newest
+        return min(reversed(seen), key=lambda glance: abs(glance.place - place))
 
     def forget_before(self, odometer: float) -> None:
         """Forget the side readings that were taken before a place on this leg."""
         while self.trace and self.trace[0][0] < odometer:
             self.trace.popleft()
+
+    def recall(
+        self,
+        memory: Iterable[tuple[float, float, float, float]],
+        shift: float,
+        gone: float,
+    ) -> None:
+        """Take up what was seen before the robot went sideways, and only that.
+
+        By `shift` metres to the left; the odometer shows `gone` metres more.
+        """
+        self.trace.clear()
+        for odometer, _, left, right in memory:
+            row = odometer + gone, self.turned, left - shift, right + shift
+            self.trace.append(row)
 
     def note_view(self) -> None:
         """Track the sides and the clearance ahead by new answers of the rangers."""

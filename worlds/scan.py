@@ -14,10 +14,12 @@ from dataclasses import dataclass, replace
 
 from behaviours.port import Side
 
-__all__ = ["SeenWall", "wall_of_scan"]
+__all__ = ["SeenWall", "nearest_piece", "wall_of_scan"]
 
 FEWEST = 6
 """Readings that a fit of one wall needs."""
+GAP = math.radians(10)
+"""Readings farther apart are of different things."""
 STEEPEST = math.radians(75)
 """Walls of an inner corner whose normals lie farther aside are not two walls."""
 
@@ -103,6 +105,36 @@ def wall_of_scan(
         variance,
         (near[1] if takes_first else near[0]) if is_outer else None,
     )
+
+
+def nearest_piece(
+    scan: Sequence[tuple[float, float]], jump: float
+) -> list[tuple[float, float]]:
+    """Return the part of a scan that shows the nearest thing, whole.
+
+    Beyond an opening a sweep sees other walls, which say nothing of this one.
+
+    Parameters
+    ----------
+    scan : sequence of (angle, range)
+        In radians and metres, angles rising.
+    jump : float
+        Ranges next to each other that differ by more, in metres, are of
+        different things.
+
+    Examples
+    --------
+    >>> nearest_piece([(0.0, 0.3), (0.1, 0.3), (0.2, 0.8), (0.3, 0.8)], 0.1)
+    [(0.0, 0.3), (0.1, 0.3)]
+    """
+    pieces: list[list[tuple[float, float]]] = []
+    for angle, reach in scan:
+        last = pieces[-1][-1] if pieces else (-math.inf, 0.0)
+        if angle - last[0] > GAP or abs(reach - last[1]) > jump:
+            pieces.append([])
+        pieces[-1].append((angle, reach))
+    pieces = [piece for piece in pieces if len(piece) >= 2 * FEWEST] or pieces
+    return min(pieces, key=lambda piece: min(r for _, r in piece), default=[])
 
 
 def _with_end(

@@ -84,6 +84,48 @@ class Look:
         """
         return float(_until_beside(self._beside, u, v, _sign(side), within, sense))
 
+    def between(self, u: float, v: float) -> float:
+        """Return the ranges to both sides together."""
+        return self.beside(u, v, Side.LEFT) + self.beside(u, v, Side.RIGHT)
+
+    def until_lost(
+        self, u: float, v: float, side: Side, within: float, limit: float, sense: int
+    ) -> float:
+        """Return the way until a side has no wall within some range.
+
+        The way is counted positive, ahead for `sense` 1 and back for -1; `inf`
+        if it is more than `limit`.
+        """
+        sides = (side,)
+        return self._until_sum(u, v, sides, within, limit, sense, is_within=False)
+
+    def until_hall(
+        self, u: float, v: float, width: float, limit: float, sense: int
+    ) -> float:
+        """Return the way until the walls on both sides are at most `width` apart."""
+        return self._until_sum(u, v, tuple(Side), width, limit, sense, is_within=True)
+
+    def _until_sum(
+        self,
+        u: float,
+        v: float,
+        sides: tuple[Side, ...],
+        within: float,
+        limit: float,
+        sense: int,
+        *,
+        is_within: bool,
+    ) -> float:
+        """Return the way until the ranges' sum is within a bound, or beyond it."""
+        # Ranges change only abeam of the ends of walls; going back, behind them.
+        ways = (self._beside[:, 1:] - u).ravel() * sense + (sense < 0) * ABEAM
+        for way in (0.0, *np.unique(ways[(ways > 0) & (ways <= limit)]).tolist()):
+            here = u + sense * way
+            reach = sum(self.beside(here, v, side) for side in sides)
+            if (reach <= within + EPS) is is_within:
+                return float(way)
+        return inf
+
     def next_change(
         self, u: float, v: float, side: Side, reach: float
     ) -> tuple[float, float]:

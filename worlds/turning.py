@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 from behaviours.port import Align, Outcome, Reason, Side, Turn
+from worlds.edges import Glance
 from worlds.profile import Ranger, looks_along
 from worlds.robot import Robot
-from worlds.scan import wall_of_scan
+from worlds.scan import nearest_piece, wall_of_scan
 from worlds.straight import SURE, Control, go, settle, stop
 
-__all__ = ["align", "turn"]
+__all__ = ["align", "spin", "turn"]
 
 SWEEP = math.radians(50)
 """A wall to square up with is looked for so far to either side, in radians."""
@@ -47,14 +48,17 @@ def quarter(robot: Robot, side: Side) -> Control[None]:
     """Turn to the axis on one side of the present one."""
     angle = side.value * math.pi / 2
     yield from stop(robot)
+    ahead = robot.eyes.beam
     yield from spin(robot, angle - robot.lean)
     robot.lean -= angle
     robot.lean_variance += robot.profile.turn_error**2 + 1e-6
     robot.begin_spin()
+    sides = (math.nan, ahead) if side is Side.LEFT else (ahead, math.nan)
+    robot.seed = Glance(robot.odometer, *sides)
 
 
 def align(robot: Robot, primitive: Align) -> Control[Outcome]:
-    """Stand parallel to the wall on one side, r0 from it.
+    """Stand parallel to the wall on one side, r0 or `offset` from it.
 
     The robot turns to face the wall. Unless it knows its heading from following,
     it sweeps its front ranger over the wall: 1 / range = cos(angle - normal) / d,
@@ -62,6 +66,7 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
     reckoned, and turns back: no way along the wall, no room needed but its own.
     """
     side, r0 = primitive.side, robot.parameters.r0
+    offset = r0 if primitive.offset is None else primitive.offset
     yield from settle(robot)
     known = robot.lean_variance < SURE
     beside = yield from _mean_side(robot, side)
@@ -69,7 +74,7 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
         beside = robot.stepped_to
     if known and beside > robot.parameters.r_max + CLOSE * r0:
         return Outcome(0.0, Reason.RECEDED, robot.readings())
-    if known and abs(beside - r0) < CLOSE * r0:
+    if known and abs(beside - offset) < CLOSE * r0:
         return Outcome(0.0, Reason.DONE, robot.readings())
     yield from quarter(robot, side)
     if not known:
@@ -79,7 +84,7 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
     if beside <= robot.parameters.r_max + CLOSE * r0:
         reason = Reason.DONE
         start = robot.odometer
-        yield from go(robot, beside - r0, keep=robot.parameters.r_min)
+        yield from go(robot, beside - offset, keep=min(offset, robot.parameters.r_min))
         advance = robot.odometer - start
     yield from quarter(robot, side.opposite)
     yield from settle(robot)
@@ -111,7 +116,8 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
         if robot.is_fresh and (reading := robot.eyes.beam) < farthest:
             scan.append((robot.turned - axis, reading))
     yield from stop(robot)
-    wall = wall_of_scan(scan, _inverse_error(robot), side, 2 * ranger.cone)
+    piece = nearest_piece(scan, robot.parameters.r0 / 3)
+    wall = wall_of_scan(piece, _inverse_error(robot), side, 2 * ranger.cone)
     if wall is None:
         yield from spin(robot, axis - robot.turned)
         return math.inf

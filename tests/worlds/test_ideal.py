@@ -79,7 +79,7 @@ def test_a_narrow_passage_ends_wall_following():
     assert outcome.distance == pytest.approx(2.0)
     assert body.execute(Centre()).shift == pytest.approx(-0.05)
     through = body.execute(Follow(Guide.HALL))
-    assert through.reason is Reason.RECEDED
+    assert through.reason is Reason.WIDENED
     assert through.distance == pytest.approx(2.0)
     assert body.execute(Centre()).reason is Reason.WIDENED
 

@@ -13,10 +13,8 @@ from behaviours.parameters import Parameters
 from behaviours.port import (
     Align,
     Approach,
-    Centre,
     Direction,
     Follow,
-    Guide,
     Move,
     Reason,
     Sensor,
@@ -266,9 +264,3 @@ def test_other_parameters_are_kept():
 def test_a_start_in_a_wall_is_refused():
     with pytest.raises(WorldError, match=r"start: \(0.02, 1\) is 0.020 m from a wall"):
         body_in(pose=(0.02, 1.0, 0.0))
-
-
-@pytest.mark.parametrize("primitive", [Centre(), Follow(Guide.HALL)])
-def test_primitives_for_halls_are_refused(primitive):
-    with pytest.raises(ValueError, match="this body cannot drive in halls"):
-        body_in().execute(primitive)

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import time
 from contextlib import AbstractContextManager, nullcontext
+from functools import reduce
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
+    from behaviours.port import Body
     from topomap.logs.recording import Recording
     from topomap.mapping import Build
+    from topomap.page import BuildRecorder
     from worlds.pose import Pose
     from worlds.world import World
 
@@ -73,11 +76,14 @@ def build(
     plot: Annotated[
         Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
     ] = None,
+    page: Annotated[
+        Path | None, typer.Option(help="Page to write that replays the run: .html.")
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object and nothing else.")
     ] = False,
 ) -> None:
-    """Let one robot build the map of the boundary it first meets."""
+    """Let one robot build the map of all it can reach along walls and halls."""
     import numpy as np
 
     from topomap.bodies import body_parameters
@@ -88,7 +94,8 @@ def build(
     from topomap.files.atomic import check_writable
     from topomap.files.map_files import save_map
     from topomap.files.world_files import load_world
-    from topomap.mapping import MAX_WALLS, build_map
+    from topomap.found import MAX_WALLS
+    from topomap.mapping import build_map
 
     if replay is not None:
         from topomap.cli.replay import make_again
@@ -111,36 +118,46 @@ def build(
         check_picture(plot)
     if log is not None:
         check_writable(log)
+    if page is not None:
+        from topomap.page.html import check_page
+
+        check_page(page)
+    about = {"body": body, "sigma": sigma, "seed": seed, "closing": closing}
+    onlooker = None if page is None else _onlooker(place, sigma, body)
     began = time.perf_counter()
     with (
-        _logged(log, body, sigma, closing, max_walls, seed) as recorder,
         naming(world),
+        _logged(log, place, {**about, "max_walls": max_walls}) as recorder,
         watched(make_closer(closing, sigma, body_parameters(body))) as closer,
     ):
+        lookers = [looker for looker in (onlooker, recorder) if looker is not None]
+        for looker in lookers:
+            closer = looker.listen(closer)
         built = build_map(
             place,
             np.random.default_rng(seed),
             body=body,
             sigma=sigma,
             start=None if start is None else _pose(start),
-            closing=closer if recorder is None else recorder.listen(closer),
+            closing=closer,
             max_walls=max_walls,
-            watch=None if recorder is None else recorder.watch,
+            watch=lambda robot: reduce(_watched_by, lookers, robot),
         )
         if recorder is not None:
             recorder.show(built.map)
     elapsed = time.perf_counter() - began
     if plot is not None:
         draw_build(built, place, plot)
+    if page is not None and onlooker is not None:
+        from topomap.page.html import save_page
+
+        save_page(onlooker.recording(built), page)
     if built.closed:
         save_map(built.map, output)
     if as_json:
         show_json(summary(built, elapsed))
     if not built.closed:
-        raise JobError(
-            f"no closure found after {len(built.walk.legs)} walls: "
-            f"{built.walk.decisions[-1].reason}"
-        )
+        raise JobError(f"no closure found after {built.walls} walls: {built.reason}")
     if not as_json:
         say(_sentence(built, output))
 
@@ -161,9 +178,9 @@ def summary(built: Build, elapsed: float) -> dict[str, Any]:
         "position_rmse_m": None if rmse is None else round(rmse, 4),
         "hypotheses": built.hypotheses,
         "collisions": built.collisions,
-        "walls": len(built.walk.legs),
-        "error_probability": built.walk.decisions[-1].error_probability,
-        "reason": built.walk.decisions[-1].reason,
+        "walls": built.walls,
+        "error_probability": built.error_probability,
+        "reason": built.reason,
     }
 
 
@@ -176,15 +193,30 @@ def draw_build(built: Build, world: World, path: Path) -> None:
 
 
 def _logged(
-    log: Path | None, body: str, sigma: float, closing: str, max_walls: int, seed: int
+    log: Path | None, world: World, about: dict[str, Any]
 ) -> AbstractContextManager[Recording | None]:
     """Return what logs the run, if it shall be logged."""
     if log is None:
         return nullcontext()
+    from topomap.bodies import body_parameters
     from topomap.logs.recording import recording
+    from worlds.fit import is_open
 
-    about = {"body": body, "sigma": sigma, "seed": seed}
-    return recording(log, {**about, "closing": closing, "max_walls": max_walls})
+    halls = not is_open(world, body_parameters(about["body"]))
+    return recording(log, {**about, "halls": halls})
+
+
+def _watched_by(robot: Body, looker: BuildRecorder | Recording) -> Body:
+    """Return the body that does the same, and is looked at."""
+    return looker.watch(robot)
+
+
+def _onlooker(world: World, sigma: float, body: str) -> BuildRecorder:
+    """Return what looks on while the map is built."""
+    from topomap.bodies import body_profile
+    from topomap.page.of_build import BuildRecorder
+
+    return BuildRecorder(world, sigma, body_profile(body))
 
 
 def _pose(text: str) -> Pose:
@@ -208,6 +240,6 @@ def _sentence(built: Build, output: Path) -> str:
     verdict = "correct" if built.correct else "WRONG"
     return (
         f"{output}: {len(built.map.vertices)} vertices, closed after "
-        f"{len(built.walk.legs)} walls and {built.travelled:.1f} m; {verdict} against "
+        f"{built.walls} walls and {built.travelled:.1f} m; {verdict} against "
         f"the world's truth"
     )

@@ -47,8 +47,8 @@ def make_again(
     from topomap.files.atomic import check_writable
     from topomap.files.map_files import save_map
     from topomap.files.world_files import load_world
+    from topomap.found import check_options
     from topomap.map_drawing import draw_map
-    from topomap.mapping import check_options
     from topomap.truth import true_maps
 
     place = None if world is None else load_world(world)
@@ -75,8 +75,7 @@ def make_again(
     if as_json:
         show_json(_summary(made, found, elapsed))
     if not made.closed:
-        last = made.walk.decisions[-1].reason
-        raise JobError(f"no closure found after {len(made.walk.legs)} walls: {last}")
+        raise JobError(f"no closure found after {made.walls} walls: {made.reason}")
     if not as_json:
         say(_sentence(made, found, output))
 
@@ -98,7 +97,6 @@ def _made(log: Path, options: dict[str, Any], topics: dict[str, str | None]) -> 
 def _summary(made: Replay, found: Comparison | None, elapsed: float) -> dict[str, Any]:
     """Return what `build --replay --json` prints; null where it cannot be known."""
     rmse = None if found is None else found.position_rmse
-    last = made.walk.decisions[-1]
     return {
         "closed": made.closed,
         "correct": None if found is None else made.closed and found.correct,
@@ -110,9 +108,9 @@ def _summary(made: Replay, found: Comparison | None, elapsed: float) -> dict[str
         "elapsed_s": round(elapsed, 3),
         "position_rmse_m": None if rmse is None else round(rmse, 4),
         "collisions": made.collisions,
-        "walls": len(made.walk.legs),
-        "error_probability": last.error_probability,
-        "reason": last.reason,
+        "walls": made.walls,
+        "error_probability": made.error_probability,
+        "reason": made.reason,
     }
 
 
@@ -124,5 +122,5 @@ def _sentence(made: Replay, found: Comparison | None, output: Path) -> str:
         verdict = f"; {is_right} against the world's truth"
     return (
         f"{output}: {len(made.map.vertices)} vertices of {made.travelled:.1f} m; "
-        f"{made.walk.decisions[-1].reason}{verdict}"
+        f"{made.reason}{verdict}"
     )

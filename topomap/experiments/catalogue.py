@@ -17,8 +17,11 @@ MODULES = (
     "topomap.experiments.closing",
     "topomap.experiments.exploring",
     "topomap.experiments.floor_plans",
+    "topomap.experiments.halls",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
+    "topomap.experiments.merging_fleets",
+    "topomap.experiments.merging_plans",
     "topomap.experiments.replaying",
 )
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 
 from topomap.bodies import body_parameters
 from topomap.closers import make_closer
+from topomap.found import MAX_WALLS
 from topomap.logs.recording import recording
-from topomap.mapping import MAX_WALLS, Build, build_map
+from topomap.mapping import Build, build_map
+from worlds.fit import is_open
 
 if TYPE_CHECKING:
     import numpy as np
@@ -91,13 +93,15 @@ def build_logged(
     >>> replay_map(recorded).map == build.map, topics["/odom"]
     (True, 'nav_msgs/msg/Odometry')
     """
-    closer = make_closer(closing, sigma, parameters or body_parameters(body))
+    lengths = parameters or body_parameters(body)
+    closer = make_closer(closing, sigma, lengths)
     about = {
         "body": body,
         "start": None if start is None else asdict(start),
         "sigma": sigma,
         "closing": closing,
         "max_walls": max_walls,
+        "halls": not is_open(world, lengths),
     }
     with recording(log, about) as recorder:
         built = build_map(

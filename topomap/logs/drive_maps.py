@@ -85,7 +85,11 @@ def map_drive(
     best = max(walks, key=lambda walk: (walk.period is not None, len(walk.legs)))
     chart = fold(best, lengths, sigma)
     simulated = float(drive.times[-1] - drive.times[0])
-    return Replay(chart, best, float(drive.way[-1]), simulated)
+    return Replay(
+        *(chart, best.period is not None, (best,), (), len(best.legs)),
+        float(drive.way[-1]),
+        simulated,
+    )
 
 
 def _seen(ranges: np.ndarray) -> int:

@@ -58,8 +58,8 @@ def recording(
     path : path-like
         The MCAP file.
     about : mapping
-        What the run is, in plain values: a replay needs ``sigma``, ``max_walls`` and
-        ``closing``, the closer's name.
+        What the run is, in plain values: a replay needs ``sigma``, ``max_walls``,
+        ``closing``, the closer's name, and ``halls``, whether they were explored.
 
     Yields
     ------

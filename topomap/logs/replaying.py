@@ -13,15 +13,13 @@ from behaviours.parameters import Parameters
 from behaviours.port import Outcome, Primitive
 from topomap.closers import make_closer
 from topomap.errors import InputError
+from topomap.found import Found, map_by
 from topomap.logs.messages import text_of
 from topomap.logs.reading import Topics, messages_of
 from topomap.logs.records import from_plain, to_plain
-from topomap.mapping import map_by
 
 if TYPE_CHECKING:
     from evidence.walls import LoopCloser
-    from topomap.boundary import Walk
-    from topomap.topological_map import TopologicalMap
 
 __all__ = ["Recorded", "RecordedBody", "Replay", "read_recorded", "replay_map"]
 
@@ -37,29 +35,21 @@ class Recorded:
     source: str
     """The log's name."""
     about: dict[str, Any]
-    """What the run was: ``parameters``, ``sigma``, ``closing``, ``max_walls``."""
+    """What the run was: ``parameters``, ``sigma``, ``closing``, and so on."""
     parameters: Parameters
     steps: tuple[tuple[dict[str, Any], dict[str, Any]], ...]
     """Each primitive and its outcome, as plain values."""
 
 
 @dataclass(frozen=True, slots=True)
-class Replay:
+class Replay(Found):
     """A map that was made of a log."""
 
-    map: TopologicalMap
-    walk: Walk
-    """Every wall walked, and what was made of it."""
     travelled: float
     """Way of the robot in metres."""
     simulated: float
     """Time in the robot's world, in seconds."""
     collisions: int = 0
-
-    @property
-    def closed(self) -> bool:
-        """Whether the loop was closed."""
-        return self.walk.period is not None
 
 
 def read_recorded(path: str | PathLike[str]) -> tuple[Recorded | None, Topics]:
@@ -193,13 +183,19 @@ def replay_map(
     deviation = about.sigma if sigma is None else sigma
     body = RecordedBody(recorded)
     closer = make_closer(name, deviation, recorded.parameters)
-    walk, chart = map_by(
+    found = map_by(
         body,
         closer if watch is None else watch(closer),
         max_walls or about.max_walls,
         deviation,
+        halls=about.halls,
     )
-    return Replay(chart, walk, body.travelled, body.clock, body.collisions)
+    return Replay(
+        *(found.map, found.closed, found.loops, found.recognitions, found.walls),
+        body.travelled,
+        body.clock,
+        body.collisions,
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,6 +205,7 @@ class _About:
     sigma: float
     max_walls: int
     closing: str | None = None
+    halls: bool = False
 
 
 def _made(source: str, field: str, plain: object, kind: type[Any]) -> Any:

@@ -1,0 +1,304 @@
+"""EXPLORE: map open spaces and halls, until no exit is left unexplored."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from behaviours.automaton import perform
+from behaviours.explore import EXPLORE, State
+from behaviours.follow_broken_wall import follow_broken_wall
+from behaviours.follow_hall import follow_hall
+from behaviours.follow_wall import Leg
+from behaviours.move_to_wall import move_to_wall
+from behaviours.port import Approach, Sensor
+from behaviours.travel import travel
+from behaviours.ways import Arrival, Way, turned
+from evidence.walls import Decision, LoopCloser, Wall
+from topomap.boundary import Walk
+from topomap.chart import Chart, Place, behaviour_of
+from topomap.errors import JobError
+from topomap.recognition import Recognition, recognise
+
+if TYPE_CHECKING:
+    from behaviours.automaton import Actions, Path
+    from behaviours.parameters import Parameters
+    from behaviours.port import Behaviour
+    from behaviours.ways import Ways
+
+__all__ = ["Exploration", "explore_halls"]
+
+ERROR = 1e-3
+"""A vertex is taken for another, or for a new one, when it is less likely wrong."""
+
+
+@dataclass(slots=True)
+class Exploration:
+    """What a robot knows while it explores, and where it is."""
+
+    parameters: Parameters
+    closer: LoopCloser
+    """Decides when a base loop is closed; begun anew for each."""
+    sigma: float
+    max_walls: int
+    chart: Chart = field(default_factory=Chart)
+    here: int = 0
+    """The vertex on which it stands."""
+    heading: int = 0
+    """Where it looks, in quarter turns from the map's x axis."""
+    walls: int = 0
+    """How many edges it has walked."""
+    closed: bool = True
+    """Whether every loop that it began was closed."""
+    loops: list[Walk] = field(default_factory=list)
+    """The base loops, as they were walked."""
+    recognitions: list[Recognition] = field(default_factory=list)
+    """What was made of each place that might be one met before."""
+
+
+def explore_halls(
+    parameters: Parameters, closer: LoopCloser, sigma: float, max_walls: int
+) -> Behaviour[Exploration]:
+    """Explore a world of open spaces and halls to the end.
+
+    MTW, then WF until the base loop is closed; then, again and again, GOTO the
+    nearest unexplored exit by the shortest way in the map, and through it, until
+    none is left ([K] 3.4 and table C.4). A base loop is closed before the halls
+    and rooms beyond it are entered, so that loops stay short.
+
+    Parameters
+    ----------
+    parameters : Parameters
+        The lengths the robot keeps.
+    closer : LoopCloser
+        Decides when a base loop is closed; it is begun anew for each.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+    max_walls : int
+        Give up after so many edges.
+
+    Returns
+    -------
+    Behaviour
+        A coroutine to be driven by a body; returns the `Exploration`.
+
+    Raises
+    ------
+    JobError
+        From the running coroutine, where the robot comes to a place that its map
+        does not have there.
+    """
+    found = Exploration(parameters, closer, sigma, max_walls)
+
+    def step_out(path: Path[State]) -> Behaviour[int]:
+        return _step_out(found, path[-1][1])
+
+    def place(path: Path[State]) -> Behaviour[bool]:
+        return _identify(found, path[-1][1])
+
+    actions: Actions[State] = {
+        State.LOOK: lambda _: _is_in_hall(parameters),
+        State.MTW: lambda _: move_to_wall(parameters),
+        State.WF: lambda _: _begin(found, follow_broken_wall(parameters, None)),
+        State.HF: lambda _: _begin(found, follow_hall(parameters)),
+        State.LOOP: lambda _: _close_loop(found),
+        State.GOTO: lambda _: _goto_exit(found),
+        State.OUT: step_out,
+        State.PLACE: place,
+    }
+    yield from perform(EXPLORE, actions, State.LOOK)
+    return found
+
+
+def _is_in_hall(parameters: Parameters) -> Behaviour[bool]:
+    """Go forward until a wall is in range; return whether a hall is around."""
+    outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
+    return outcome.readings.left + outcome.readings.right <= 2 * parameters.r0
+
+
+def _begin(found: Exploration, behaviour: Behaviour[Arrival]) -> Behaviour[None]:
+    """Come to the first vertex."""
+    arrival = yield from behaviour
+    found.here = found.chart.add_place(Place(arrival.type, arrival.ways))
+    found.heading = arrival.facing % 4
+
+
+def _goto_exit(found: Exploration) -> Behaviour[int | None]:
+    """GOTO: drive to the nearest unexplored exit, if any is left, and return it."""
+    target = found.chart.nearest_unexplored(found.here)
+    if target is None:
+        return None
+    vertex, quarters = target
+    yield from _goto(found, vertex)
+    return quarters
+
+
+def _leave(
+    found: Exploration, place: Place, quarters: int
+) -> Behaviour[tuple[Place, Arrival]]:
+    """Take a way from a place; return the next one, in the map's directions."""
+    seen: Ways = turned(place.ways, found.heading)
+    arrival = yield from travel(
+        found.parameters, place.type, seen, quarters - found.heading
+    )
+    if arrival.length <= 0:
+        raise JobError(
+            f"a way of {arrival.length:.2f} m from a vertex {place.type.name} to a "
+            f"vertex {arrival.type.name}: the robot has lost its wall"
+        )
+    found.heading = (quarters + arrival.facing) % 4
+    found.walls += 1
+    return Place(arrival.type, turned(arrival.ways, -quarters)), arrival
+
+
+def _go(found: Exploration, quarters: int) -> Behaviour[None]:
+    """GOTO: walk a known edge, and measure it once more."""
+    places = found.chart.places
+    link = found.chart.links[found.here, quarters]
+    there, _ = link.beyond((found.here, quarters))
+    place, arrival = yield from _leave(found, places[found.here], quarters)
+    if place != places[there]:
+        raise JobError(
+            f"vertex {there}, {places[there].type.name}, was expected "
+            f"{link.lengths[0]:.2f} m from vertex {found.here}; "
+            f"{place.type.name} was found {arrival.length:.2f} m away"
+        )
+    link.measure(arrival)
+    found.here = there
+
+
+def _step_out(found: Exploration, quarters: int) -> Behaviour[int]:
+    """Take an unexplored exit to a vertex that is new, until it is recognised."""
+    chart, source = found.chart, found.here
+    way = chart.places[source].ways[quarters]
+    place, arrival = yield from _leave(found, chart.places[source], quarters)
+    back = (quarters + 2) % 4
+    there = chart.add_place(place)
+    behaviour = behaviour_of(way, place.ways[back])
+    chart.add_link((source, quarters), (there, back), behaviour).measure(arrival)
+    found.here = there
+    return there
+
+
+def _identify(found: Exploration, vertex: int) -> Behaviour[bool]:
+    """Find out whether a vertex is one met before; return whether that is known.
+
+    Where the evidence is too weak, the base loop is closed first, if there is one;
+    then the robot takes ways that it knows, if the vertex is what it may be.
+    """
+    chart = found.chart
+    unsure = [vertex]
+    while unsure:
+        if found.walls >= found.max_walls:
+            found.closed = False
+        if not found.closed:
+            return False
+        vertex = unsure[-1]
+        if vertex not in chart.places:
+            unsure.pop()
+            continue
+        recognition = recognise(chart, found.parameters, found.sigma, vertex)
+        found.recognitions.append(recognition)
+        if not recognition.is_sure(ERROR):
+            best, _ = recognition.candidates[0]
+            telling = _telling_way(chart, vertex, best)
+            if _is_open_loop(chart, vertex):
+                yield from _goto(found, vertex)
+                yield from _close_loop(found)
+                continue
+            if telling is not None:
+                yield from _goto(found, telling[0])
+                unsure.insert(-1, (yield from _step_out(found, telling[1])))
+                continue
+        unsure.pop()
+        if recognition.known is not None:
+            pairs = chart.pairs(vertex, recognition.known) or {}
+            chart.join(pairs)
+            found.here = pairs.get(found.here, found.here)
+        elif _is_open_loop(chart, vertex):
+            yield from _goto(found, vertex)
+            yield from _close_loop(found)
+    return found.closed
+
+
+def _goto(found: Exploration, vertex: int) -> Behaviour[None]:
+    """GOTO: drive to a vertex by the shortest way in the map."""
+    for _, quarters in found.chart.route(found.here, vertex):
+        yield from _go(found, quarters)
+
+
+def _is_open_loop(chart: Chart, vertex: int) -> bool:
+    """Return whether a vertex is on a base loop that has not been walked."""
+    ways = chart.places[vertex].ways
+    return (
+        Way.WALL_RIGHT in ways
+        and (vertex, ways.index(Way.WALL_RIGHT)) not in chart.links
+    )
+
+
+def _telling_way(chart: Chart, vertex: int, other: int) -> tuple[int, int] | None:
+    """Return an exit not taken yet that the map tells of, if two vertices are one."""
+    for a, b in (chart.pairs(vertex, other) or {}).items():
+        for quarters in range(4):
+            if (b, quarters) in chart.links and (a, quarters) not in chart.links:
+                return a, quarters
+    return None
+
+
+def _close_loop(found: Exploration) -> Behaviour[bool]:
+    """Walk along the wall, the wall on the right, until the loop is closed."""
+    places = [found.chart.places[found.here]]
+    arrivals: list[Arrival] = []
+    decisions: list[Decision] = []
+    found.closer.begin(*_corner(places[0]))
+    period = None
+    while period is None and found.walls < found.max_walls:
+        quarters = places[-1].ways.index(Way.WALL_RIGHT)
+        place, arrival = yield from _leave(found, places[-1], quarters)
+        places.append(place)
+        arrivals.append(arrival)
+        decisions.append(
+            found.closer.observe(Wall(arrival.length, *_corner(place), arrival.shift))
+        )
+        period = decisions[-1].period
+    found.closed = period is not None
+    legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
+    found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
+    _fold(found, places, arrivals, period or len(places))
+    return found.closed
+
+
+def _corner(place: Place) -> tuple[str, float]:
+    """Return a vertex of a base loop as a corner: its kind, and the turn there.
+
+    The halls that begin there are part of its kind.
+    """
+    onward = place.ways.index(Way.WALL_RIGHT)
+    turn = (onward - place.ways.index(Way.WALL_LEFT) - 1) % 4 - 1
+    halls = "".join(
+        str((quarters - onward) % 4)
+        for quarters, way in enumerate(place.ways)
+        if way is Way.HALL
+    )
+    return place.type.value + halls, turn * math.pi / 2
+
+
+def _fold(
+    found: Exploration,
+    places: list[Place],
+    arrivals: list[Arrival],
+    period: int,
+) -> None:
+    """Put the walls of a loop into the map, each once with all its lengths."""
+    chart = found.chart
+    numbers = [found.here, *map(chart.add_place, places[1:period])]
+    for k, arrival in enumerate(arrivals):
+        quarters = places[k].ways.index(Way.WALL_RIGHT)
+        end = numbers[k % period], quarters
+        link = chart.links.get(end)
+        if link is None:
+            there = numbers[(k + 1) % period], (quarters + 2) % 4
+            link = chart.add_link(end, there, "WF")
+        link.measure(arrival)
+    found.here = numbers[len(arrivals) % period]

@@ -1,0 +1,1 @@
+"""Worlds with halls: what joins what on a lattice, and then where it is."""
