@@ -20,6 +20,7 @@ MAY_IMPORT = {
         *("behaviours", "evidence", "merge", "worlds"),
         *("numpy", "scipy", "networkx", "numba", "shapely"),
         *("msgspec", "matplotlib", "typer", "rich", "PIL", "yaml", "distributed"),
+        *("mcap", "rosbags", "lz4", "zstandard"),
     },
 }
 STANDARD = __import__("sys").stdlib_module_names

@@ -27,7 +27,9 @@ rule, with a gate that practically never misses (99.9 %), and with the literal o
 (95 %)."""
 
 
-def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
+def make_closer(
+    name: str, sigma: float, parameters: Parameters, *, epsilon: float = 1e-4
+) -> LoopCloser:
     """Make the loop closer of a name.
 
     Parameters
@@ -38,6 +40,8 @@ def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
         Standard deviation of a measured length, as a part of the length.
     parameters : Parameters
         Of the robot: they decide how near two equal corners can be.
+    epsilon : float
+        The likelihood test closes when the probability of being wrong is below.
 
     Returns
     -------
@@ -59,8 +63,7 @@ def make_closer(name: str, sigma: float, parameters: Parameters) -> LoopCloser:
     nearest = least_distance(parameters.r0, parameters.r_min, parameters.r_max)
     if name.startswith("likelihood"):
         full_lap = name == "likelihood-full-lap"
-        return LikelihoodCloser(
-            error, LikelihoodRule(full_lap=full_lap, r_star=nearest)
-        )
+        rule = LikelihoodRule(epsilon=epsilon, full_lap=full_lap, r_star=nearest)
+        return LikelihoodCloser(error, rule)
     gate = 0.95 if name.endswith("95") else 0.999
     return DempsterShaferCloser(error, PublishedRule(alpha=gate, r_star=nearest))

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from behaviours.automaton import UnforeseenError
-from behaviours.port import run
-from behaviours.vertices import VertexType
 from topomap.bodies import body_drift, body_parameters, make_body
-from topomap.boundary import Walk, map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
-from topomap.embedding import embedded
-from topomap.errors import InputError, JobError
-from topomap.explore import explore_halls
-from topomap.folding import fold
+from topomap.errors import InputError
+from topomap.found import MAX_WALLS, Found, check_options, map_by
 from topomap.incursions.improving import IMPROVEMENTS, Improvement, improve_map
 from topomap.parts import compare_wholes, in_one
 from topomap.truth import true_maps
@@ -31,35 +24,18 @@ if TYPE_CHECKING:
     from behaviours.port import Body
     from evidence.walls import LoopCloser
     from topomap.comparison import Comparison
-    from topomap.recognition import Recognition
-    from topomap.topological_map import TopologicalMap
     from worlds.pose import Pose
     from worlds.world import World
 
-__all__ = ["MAX_SIGMA", "Build", "build_map"]
-
-MAX_SIGMA = 0.5
-"""Lengths that are off by half of themselves say nothing about a loop."""
-MAX_WALLS = 5000
-"""After so many walls an open loop is given up."""
+__all__ = ["Build", "build_map"]
 
 
 @dataclass(frozen=True, slots=True)
-class Build:
+class Build(Found):
     """A map that a robot built, and what it took."""
 
-    map: TopologicalMap
-    """Of the closed loop, improved; of the open walk where no closure was found."""
-    closed: bool
-    """Whether the robot decided that it had come round."""
     comparison: Comparison
     """With the world's truth: of one loop; of all loops with active incursions."""
-    loops: tuple[Walk, ...]
-    """Every base loop as it was walked, and what was made of each wall."""
-    recognitions: tuple[Recognition, ...]
-    """What was made of vertices beyond halls that may be earlier ones."""
-    walls: int
-    """How many edges were walked, known ones included."""
     start: Pose
     """Where the robot was set down."""
     travelled: float
@@ -75,45 +51,6 @@ class Build:
     def correct(self) -> bool:
         """Whether the map is closed and isomorphic to the truth."""
         return self.closed and self.comparison.correct
-
-    @property
-    def hypotheses(self) -> int:
-        """How many closures and recognitions were ever thought possible."""
-        closures = {
-            (k, hypothesis.period)
-            for k, walk in enumerate(self.loops)
-            for decision in walk.decisions
-            for hypothesis in decision.hypotheses
-        }
-        recognised = {
-            (found.vertex, candidate)
-            for found in self.recognitions
-            for candidate, _ in found.candidates
-        }
-        return len(closures) + len(recognised)
-
-    @property
-    def error_probability(self) -> float:
-        """Probability, by the robot's own account, that the map is wrong somewhere.
-
-        The sum over all loops and over all vertices that may have been earlier ones.
-        """
-        last = {found.vertex: found.doubt for found in self.recognitions}
-        loops = (walk.decisions[-1] for walk in self.loops if walk.decisions)
-        total = sum(last.values()) + sum(loop.error_probability for loop in loops)
-        return min(1.0, total)
-
-    @property
-    def reason(self) -> str:
-        """Why the loop that is least sure was closed, or is open."""
-        decided = [walk.decisions[-1] for walk in self.loops if walk.decisions]
-        worst = max(decided, key=lambda d: (d.period is None, d.error_probability))
-        return worst.reason
-
-    @property
-    def walk(self) -> Walk:
-        """The base loop that was walked first; an empty one if there is none."""
-        return self.loops[0] if self.loops else Walk(VertexType.TERM, (), ())
 
 
 def build_map(
@@ -189,12 +126,9 @@ def build_map(
     >>> build.correct, len(build.map.vertices), build.map.unexplored_exits
     (True, 6, 0)
     """
-    if not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
-        raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
+    check_options(sigma, max_walls)
     if improve not in IMPROVEMENTS:
         raise InputError("", "improve", improve, f"one of {', '.join(IMPROVEMENTS)}")
-    if max_walls < 1:
-        raise InputError("", "max_walls", max_walls, "a number of at least 1")
     start_rng, body_rng = rng.spawn(2)
     parameters = parameters or body_parameters(body)
     truth = true_maps(world, parameters)
@@ -207,64 +141,32 @@ def build_map(
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )
-    has_halls = not is_open(world, parameters)
-    if has_halls and improve != "none":
+    halls = not is_open(world, parameters)
+    if halls and improve != "none":
         expected = "none: incursions are for worlds without halls"
         raise InputError("", "improve", improve, expected)
-    explore = _explore_halls if has_halls else _explore_open
-    try:
-        found = explore(robot, closer, sigma, max_walls)
-    except UnforeseenError as error:
-        raise JobError(str(error)) from error
-    improvement = None
-    if found["closed"] and not has_halls:
-        (walk,) = found["loops"]
+    found = map_by(robot, closer, max_walls, sigma, halls=halls)
+    chart, improvement = found.map, None
+    if found.closed and not halls:
+        (walk,) = found.loops
         name = closing if isinstance(closing, str) else "likelihood"
         improvement = improve_map(
-            found["map"],
+            chart,
             improve,
             body_drift(body, sigma),
             body=robot,
-            vertex=len(walk.legs) % walk.period,
+            vertex=len(walk.legs) % (walk.period or 1),
             make_closer=lambda: make_closer(name, sigma, parameters),
         )
-        found["map"] = improvement.map
+        chart = improvement.map
     return Build(
-        comparison=compare_wholes(found["map"], in_one(truth))
+        *(chart, found.closed, found.loops, found.recognitions, found.walls),
+        compare_wholes(chart, in_one(truth))
         if improve == "active"
-        else compare_maps(found["map"], *truth),
-        start=start,
-        travelled=robot.travelled,
-        simulated=robot.clock,
-        collisions=robot.collisions,
-        improvement=improvement,
-        **found,
+        else compare_maps(chart, *truth),
+        start,
+        robot.travelled,
+        robot.clock,
+        robot.collisions,
+        improvement,
     )
-
-
-def _explore_open(
-    robot: Body, closer: LoopCloser, sigma: float, max_walls: int
-) -> dict[str, Any]:
-    """Map the one boundary loop that is all there is without halls, [K] 3.2.2."""
-    walk = run(map_boundary(robot.parameters, closer, max_walls), robot)
-    return {
-        "map": fold(walk, robot.parameters, sigma),
-        "closed": walk.period is not None,
-        "loops": (walk,),
-        "recognitions": (),
-        "walls": len(walk.legs),
-    }
-
-
-def _explore_halls(
-    robot: Body, closer: LoopCloser, sigma: float, max_walls: int
-) -> dict[str, Any]:
-    """Map loops and the halls between them, until no exit is unexplored."""
-    found = run(explore_halls(robot.parameters, closer, sigma, max_walls), robot)
-    return {
-        "map": embedded(found.chart.as_map(robot.parameters, sigma)),
-        "closed": found.closed,
-        "loops": tuple(found.loops),
-        "recognitions": tuple(found.recognitions),
-        "walls": found.walls,
-    }

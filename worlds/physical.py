@@ -7,22 +7,11 @@ controllers at a fixed time step.
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from behaviours.port import (
-    Align,
-    Follow,
-    Outcome,
-    Primitive,
-    Reason,
-    Turn,
-)
-from worlds.controllers import controller_of, way_of
-from worlds.robot import Robot
-from worlds.straight import Control, go, stop
-from worlds.sweeping import pieces
+from worlds.controlled import ControlledBody
+from worlds.simulated_robot import SimulatedRobot
 
 if TYPE_CHECKING:
     import numpy as np
@@ -34,15 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["PhysicalBody"]
 
-PATIENCE = 1800.0
-"""Seconds after which a primitive that has not ended is stuck."""
-BUMPS = 3
-"""After so many bumps within r0 of way the robot is stuck."""
-RECOIL = 1 / 6
-"""How far the robot goes back from what it touched, in parts of r0."""
 
-
-class PhysicalBody:
+class PhysicalBody(ControlledBody):
     """A simulated robot that executes primitives; a `behaviours.port.Body`.
 
     Parameters
@@ -89,6 +71,7 @@ class PhysicalBody:
     Along the wall of a room, up to the next one:
 
     >>> import numpy as np
+    >>> from behaviours.port import Follow
     >>> from worlds.arena import Arena
     >>> from worlds.pose import Pose
     >>> from worlds.profiles import GENERIC
@@ -116,24 +99,13 @@ class PhysicalBody:
             profile = replace(profile, parameters=parameters)
         self.arena = arena
         """The world it stands in, and whoever else is there."""
-        self._parameters = profile.parameters
-        self._robot = Robot(arena, start, profile, rng, sigma)
-        self._control: Control[Outcome] | None = None
-        self._start = 0.0
-        self._since = 0
-        self._is_recoiling = False
-        self._bumps = 0
-        self._bumped_at = -math.inf
-
-    @property
-    def parameters(self) -> Parameters:
-        """The lengths this robot keeps."""
-        return self._parameters
+        self._simulated = SimulatedRobot(arena, start, profile, rng, sigma)
+        super().__init__(self._simulated)
 
     @property
     def travelled(self) -> float:
         """True way since the start, in metres."""
-        return self._robot.travelled
+        return self._simulated.travelled
 
     @property
     def clock(self) -> float:
@@ -143,88 +115,14 @@ class PhysicalBody:
     @property
     def collisions(self) -> int:
         """How often the body has begun to touch a wall or another robot."""
-        return self._robot.disc.contacts
+        return self._simulated.disc.contacts
 
     @property
     def pose(self) -> tuple[float, float, float]:
         """True x and y, in metres, and heading, in radians, in the world's frame."""
-        disc = self._robot.disc
+        disc = self._simulated.disc
         return disc.x, disc.y, disc.angle
 
-    def execute(self, primitive: Primitive) -> Outcome:
-        """Carry out one primitive to its end; see `behaviours.port`.
-
-        Other robots of the arena do meanwhile what their wheels were asked last.
-        """
-        self.begin(primitive)
-        while (outcome := self.step()) is None:
-            pass
-        return outcome
-
-    def begin(self, primitive: Primitive) -> None:
-        """Take up a primitive, to be carried out by `step` or by `poll`."""
-        robot = self._robot
-        if not isinstance(primitive, Align):
-            robot.stepped_to = None
-        if not (isinstance(primitive, (Turn, Follow)) or way_of(primitive) == 0):
-            robot.edge_behind = None
-        self._control = controller_of(primitive)(robot, primitive)
-        self._start = robot.odometer
-        robot.sweep.clear()
-        self._since = self.arena.ticks
-        self._is_recoiling = False
-
-    def step(self) -> Outcome | None:
-        """Decide, and unless the primitive has ended let one time step pass."""
-        outcome = self.poll()
-        if outcome is None:
-            self.arena.step()
-        return outcome
-
-    def poll(self) -> Outcome | None:
-        """Decide what the wheels do in the next time step, or end the primitive.
-
-        For several robots in one arena: poll each, then step the arena once.
-
-        Raises
-        ------
-        ValueError
-            If no primitive was begun.
-        """
-        if self._control is None:
-            raise ValueError("no primitive was begun")
-        robot = self._robot
-        if robot.disc.touching and not self._is_recoiling:
-            self._control = self._recoil()
-            self._is_recoiling = True
-        try:
-            next(self._control)
-        except StopIteration as end:
-            return self._end(end.value)
-        late = self.arena.ticks - self._since > PATIENCE / self.arena.time_step
-        return self._end(self._outcome(Reason.STUCK)) if late else None
-
-    def _end(self, outcome: Outcome) -> Outcome:
-        """Let go of the primitive."""
-        self._control = None
-        robot = self._robot
-        robot.drive(0.0, 0.0)
-        swept = pieces(robot.sweep, self._start, robot.odometer)
-        return replace(outcome, swept=swept)
-
-    def _recoil(self) -> Control[Outcome]:
-        """Go back from what was touched; it is STUCK if that does not help."""
-        robot = self._robot
-        if robot.odometer - self._bumped_at > self._parameters.r0:
-            self._bumps = 0
-        self._bumps += 1
-        self._bumped_at = robot.odometer
-        way = -math.copysign(RECOIL * self._parameters.r0, robot.speed_asked)
-        yield from stop(robot)
-        yield from go(robot, way)
-        is_stuck = robot.disc.touching or self._bumps >= BUMPS
-        return self._outcome(Reason.STUCK if is_stuck else Reason.BUMPED)
-
-    def _outcome(self, reason: Reason) -> Outcome:
-        distance = max(self._robot.odometer - self._start, 0.0)
-        return Outcome(distance, reason, self._robot.readings())
+    def pass_time(self) -> None:
+        """Let one time step pass for all robots of the arena."""
+        self.arena.step()

@@ -1,32 +1,24 @@
-"""What a simulated robot knows and does at each tick: wheels, counts, ranges.
+"""What a robot knows at each tick, and what its controllers read and set.
 
-The robot's side of the simulation. Its wheels slip, its counts err, and its
-rangers answer late and with noise; controllers see nothing else.
+Counts of the wheels and answers of the rangers come in; where walls are and how the
+robot leans comes out. Controllers see nothing else, so they drive simulated robots
+and real ones.
 """
 
 from __future__ import annotations
 
 import math
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Iterable
 
-import numpy as np
-
 from behaviours.port import Readings
-from worlds.arena import Arena
 from worlds.edges import Glance
-from worlds.pose import Pose
 from worlds.profile import Profile, looks_along
-from worlds.sensors import Eyes
+from worlds.view import View
 
 __all__ = ["Robot"]
 
-CLIP = 2.5
-"""Errors of a leg or a turn are drawn up to so many standard deviations."""
-LEAST = 0.2
-"""A leg is never measured as less than this part of its length."""
-BATCH = 256
-"""Errors are drawn for so many time steps at once."""
 MEMORY = 192
 """Side readings that the robot keeps of the present leg."""
 STAND = 1 / 20
@@ -35,21 +27,14 @@ AGREE = 1 / 6
 """Ranges ahead that differ by more, in parts of r0, are of different things."""
 
 
-class Robot:
-    """One robot in an arena: all that its controllers read and set."""
+class Robot(ABC):
+    """All that controllers read and set; what it is made of is its maker's affair."""
 
-    def __init__(
-        self,
-        arena: Arena,
-        start: Pose,
-        profile: Profile,
-        rng: np.random.Generator,
-        sigma: float,
-    ) -> None:
+    def __init__(self, profile: Profile, eyes: View, stride: float) -> None:
         self.profile = profile
         self.parameters = profile.parameters
-        self.arena = arena
-        self.disc = arena.add(start, profile.radius, profile.mass, profile.speed)
+        self.eyes = eyes
+        """What the rangers answered last."""
         self.odometer = 0.0
         """Counted way ahead, in metres; falls when the robot backs."""
         self.turned = 0.0
@@ -72,11 +57,9 @@ class Robot:
         """How far behind the wall to follow next is known to end, in metres."""
         self.stepped_to: float | None = None
         """How far the followed wall is after a step just noticed, in metres."""
-        self.side_lead = next(
-            r.x for r in profile.rangers if looks_along(r, math.pi / 2)
-        )
-        """How far ahead of the centre the side rangers sit, in metres."""
         side = next(r for r in profile.rangers if looks_along(r, math.pi / 2))
+        self.side_lead = side.x
+        """How far ahead of the centre the side rangers sit, in metres."""
         self.spot = math.tan(side.cone)
         """Half the width of a side ranger's spot of light, in parts of its range."""
         self.slide = self.spot * (abs(side.y) + side.far)
@@ -85,35 +68,16 @@ class Robot:
         """How far ahead of an edge that is abeam what follows is seen, in metres."""
         self.seed: Glance | None = None
         """What was ahead before the last turn, and so beside after it."""
-        self.travelled = 0.0
-        """True way, in metres."""
-        self.wander = self._wander()
+        self.wander = _wander(profile, stride)
         """Variance of the heading that a metre adds, in squared radians."""
-        self._rng = rng
-        self._sigma = sigma
-        self._normals: list[float] = []
-        self._rows: list[list[float]] = []
-        self._miss_left = self._miss_right = 0.0
-        self._is_uneven = profile.slip > 0 or profile.encoder_noise > 0
-        self.eyes = Eyes(profile, arena, self.disc, self.normal)
-        self._x, self._y = start.x, start.y
-        self._wheels = self._rolled = (0.0, 0.0)
         self._target = (0.0, 0.0)
         self._seen = self._missed = 0
-        self._due = 0.0
-        self.begin_leg()
-        self.begin_spin()
-        self._look()
-        arena.riders.append(self)
 
-    def begin_leg(self) -> None:
-        """Draw the errors of a straight leg anew: its scale and its bend."""
-        self._scale = 1.0 / max(1.0 + self._clipped(self._sigma), LEAST)
-        self._drift = self._clipped(self.profile.drift)
+    def begin_leg(self) -> None:  # noqa: B027 - only a simulation has to do anything
+        """Take note that a straight leg begins."""
 
     def begin_spin(self) -> None:
-        """Draw the error of a turn anew, and forget what the old heading showed."""
-        self._turn_scale = 1.0 + self._clipped(self.profile.turn_error) / (math.pi / 2)
+        """Forget what the old heading showed."""
         self.ahead = math.inf
         self._seen = self._missed = 0
         self.trace.clear()
@@ -129,54 +93,22 @@ class Robot:
         return 0.5 * (self._target[0] + self._target[1])
 
     @property
+    @abstractmethod
     def is_still(self) -> bool:
         """Whether the wheels stand."""
-        return self._wheels == self._rolled == (0.0, 0.0)
 
-    def act(self) -> None:
-        """Let the wheels follow what was asked, as fast as they can, and slip."""
-        profile = self.profile
-        gain = profile.acceleration * self.arena.time_step
-        left, right = self._rolled = self._wheels
-        want_left, want_right = self._target
-        left += min(max(want_left - left, -gain), gain)
-        right += min(max(want_right - right, -gain), gain)
-        self._wheels = (left, right)
-        if self._is_uneven:
-            if not self._rows:
-                self._rows = self._rng.standard_normal((BATCH, 4)).tolist()
-            slip_left, slip_right, self._miss_left, self._miss_right = self._rows.pop()
-            left *= 1.0 + profile.slip * slip_left
-            right *= 1.0 + profile.slip * slip_right
-        speed = 0.5 * (left + right) * self._scale
-        disc = self.disc
-        disc.speed = speed
-        disc.spin = (
-            right - left
-        ) / profile.wheel_base * self._turn_scale + self._drift * speed
+    @property
+    @abstractmethod
+    def is_touching(self) -> bool:
+        """Whether the body touches something."""
 
-    def sense(self) -> None:
-        """Count the wheels and read the rangers after a time step."""
-        profile = self.profile
-        dt = self.arena.time_step
-        left, right = self._rolled  # the step moves bodies first, then pushes them
-        left *= 1.0 + profile.encoder_noise * self._miss_left
-        right *= 1.0 + profile.encoder_noise * self._miss_right
-        way = 0.5 * (left + right) * dt
-        turn = (right - left) / profile.wheel_base * dt
+    def count(self, way: float, turn: float) -> None:
+        """Take in what the wheels counted since the last tick."""
         self.odometer += way
         self.turned += turn
         self.lean += turn
         self.lean_variance += self.wander * abs(way)
         self.ahead -= way
-        disc = self.disc
-        self.travelled += math.hypot(disc.x - self._x, disc.y - self._y)
-        self._x, self._y = disc.x, disc.y
-        self._due -= dt
-        self.is_fresh = self._due <= 1e-9
-        if self.is_fresh:
-            self._due += profile.update_period
-            self._look()
 
     def readings(self, front: float = -1.0) -> Readings:
         """Return the newest readings; with `front`, what is known of the front."""
@@ -225,16 +157,9 @@ class Robot:
             row = odometer + gone, self.turned, left - shift, right + shift
             self.trace.append(row)
 
-    def normal(self) -> float:
-        """Draw from the standard normal distribution."""
-        if not self._normals:
-            self._normals = self._rng.standard_normal(4 * BATCH).tolist()
-        return self._normals.pop()
-
-    def _look(self) -> None:
-        """Take new ranges and track the clearance ahead."""
+    def note_view(self) -> None:
+        """Track the sides and the clearance ahead by new answers of the rangers."""
         eyes = self.eyes
-        eyes.look(self.disc.x, self.disc.y, self.disc.angle)
         self.left, self.right = eyes.left, eyes.right
         self.trace.append((self.odometer, self.turned, eyes.left, eyes.right))
         abeam = self.odometer + self.side_lead
@@ -252,12 +177,8 @@ class Robot:
         else:
             self._missed += 1
 
-    def _clipped(self, deviation: float) -> float:
-        """Draw an error, never a freak one."""
-        return deviation * min(max(self.normal(), -CLIP), CLIP)
 
-    def _wander(self) -> float:
-        profile = self.profile
-        uneven = profile.slip**2 + profile.encoder_noise**2
-        stride = profile.speed * self.arena.time_step
-        return profile.drift**2 + 2 * uneven * stride / profile.wheel_base**2 + 1e-6
+def _wander(profile: Profile, stride: float) -> float:
+    """Return the variance that a metre adds to the heading; strides in metres."""
+    uneven = profile.slip**2 + profile.encoder_noise**2
+    return profile.drift**2 + 2 * uneven * stride / profile.wheel_base**2 + 1e-6

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from contextlib import AbstractContextManager, nullcontext
+from functools import reduce
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 if TYPE_CHECKING:
+    from behaviours.port import Body
+    from topomap.logs.recording import Recording
     from topomap.mapping import Build
     from topomap.page import BuildRecorder
     from worlds.pose import Pose
@@ -19,27 +23,60 @@ __all__ = ["build"]
 
 
 def build(
-    world: Annotated[Path, typer.Argument(help="World file.")],
     output: Annotated[Path, typer.Option("-o", "--output", help="Map file to write.")],
+    world: Annotated[
+        Path | None,
+        typer.Argument(help="World file; with --replay only to judge the map by."),
+    ] = None,
     body: Annotated[
         str, typer.Option(help="ideal, physical, or a physical robot's profile.")
     ] = "ideal",
     sigma: Annotated[
-        float, typer.Option(help="Error of a measured length, as a part of it.")
-    ] = 0.06,
+        float | None,
+        typer.Option(
+            help="Error of a measured length, as a part of it.",
+            show_default="0.06, or the log's",
+        ),
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of all that is drawn.")] = 0,
     start: Annotated[
         str | None, typer.Option(help="X,Y,DEG where the robot is set down.")
     ] = None,
     closing: Annotated[
-        str, typer.Option(help="What decides that the loop is closed.")
-    ] = "likelihood",
+        str | None,
+        typer.Option(
+            help="What decides that the loop is closed.",
+            show_default="likelihood, or the log's",
+        ),
+    ] = None,
     improve: Annotated[
         str, typer.Option(help="Add incursions: none, passive or active.")
     ] = "none",
     max_walls: Annotated[
-        int, typer.Option(help="Give the loop up as open after so many walls.")
-    ] = 5000,
+        int | None,
+        typer.Option(
+            help="Give the loop up as open after so many walls.",
+            show_default="5000, or the log's",
+        ),
+    ] = None,
+    log: Annotated[
+        Path | None, typer.Option(help="MCAP file to log the run to.")
+    ] = None,
+    replay: Annotated[
+        Path | None,
+        typer.Option(
+            help="MCAP file or ROS 2 bag to make the map of; no WORLD needed."
+        ),
+    ] = None,
+    left: Annotated[
+        str | None, typer.Option(help="The replayed log's topic of ranges to the left.")
+    ] = None,
+    right: Annotated[
+        str | None, typer.Option(help="Its topic of ranges to the right.")
+    ] = None,
+    odometry: Annotated[
+        str | None, typer.Option(help="Its topic of the odometry.")
+    ] = None,
     plot: Annotated[
         Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
     ] = None,
@@ -57,44 +94,72 @@ def build(
     from topomap.cli.console import naming, say, show_json, watched
     from topomap.closers import make_closer
     from topomap.drawing import check_picture
-    from topomap.errors import JobError
+    from topomap.errors import InputError, JobError
     from topomap.files.atomic import check_writable
     from topomap.files.map_files import save_map
     from topomap.files.world_files import load_world
+    from topomap.found import MAX_WALLS
     from topomap.mapping import build_map
 
+    if replay is not None:
+        from topomap.cli.replay import make_again
+
+        options = {"closing": closing, "sigma": sigma, "max_walls": max_walls}
+        topics = {"left": left, "right": right, "odometry": odometry}
+        make_again(replay, output, world, options, topics, plot, as_json)
+        return
+    for name, value in (("left", left), ("right", right), ("odometry", odometry)):
+        if value is not None:
+            raise InputError(f"--{name}", "", value, "--replay with it")
+    if world is None:
+        raise InputError("WORLD", "", None, "a world file, or --replay")
+    if log is not None and improve != "none":
+        expected = "--improve none: a log holds the walk along walls and halls alone"
+        raise InputError("--log", "", str(log), expected)
+    sigma = 0.06 if sigma is None else sigma
+    closing = closing or "likelihood"
+    max_walls = MAX_WALLS if max_walls is None else max_walls
     place = load_world(world)
     check_writable(output)
     if plot is not None:
         check_picture(plot)
+    if log is not None:
+        check_writable(log)
     if page is not None:
         from topomap.page.html import check_page
 
         check_page(page)
-    recorder = None if page is None else _recorder(place, sigma, body)
+    about = {"body": body, "sigma": sigma, "seed": seed, "closing": closing}
+    onlooker = None if page is None else _onlooker(place, sigma, body)
     began = time.perf_counter()
     with (
         naming(world),
+        _logged(log, place, {**about, "max_walls": max_walls}) as recorder,
         watched(make_closer(closing, sigma, body_parameters(body))) as closer,
     ):
+        lookers = [looker for looker in (onlooker, recorder) if looker is not None]
+        for looker in lookers:
+            closer = looker.listen(closer)
         built = build_map(
             place,
             np.random.default_rng(seed),
             body=body,
             sigma=sigma,
             start=None if start is None else _pose(start),
-            closing=closer if recorder is None else recorder.listen(closer),
+            closing=closer,
             max_walls=max_walls,
-            watch=None if recorder is None else recorder.watch,
+            watch=lambda robot: reduce(_watched_by, lookers, robot),
             improve=improve,
         )
+        if recorder is not None:
+            recorder.show(built.map)
     elapsed = time.perf_counter() - began
     if plot is not None:
         draw_build(built, place, plot)
-    if page is not None and recorder is not None:
+    if page is not None and onlooker is not None:
         from topomap.page.html import save_page
 
-        save_page(recorder.recording(built), page)
+        save_page(onlooker.recording(built), page)
     if built.closed:
         save_map(built.map, output)
     if as_json:
@@ -145,7 +210,26 @@ def draw_build(built: Build, world: World, path: Path) -> None:
     save_figure(path, lambda figure: fill_figure(built, world, figure))
 
 
-def _recorder(world: World, sigma: float, body: str) -> BuildRecorder:
+def _logged(
+    log: Path | None, world: World, about: dict[str, Any]
+) -> AbstractContextManager[Recording | None]:
+    """Return what logs the run, if it shall be logged."""
+    if log is None:
+        return nullcontext()
+    from topomap.bodies import body_parameters
+    from topomap.logs.recording import recording
+    from worlds.fit import is_open
+
+    halls = not is_open(world, body_parameters(about["body"]))
+    return recording(log, {**about, "halls": halls})
+
+
+def _watched_by(robot: Body, looker: BuildRecorder | Recording) -> Body:
+    """Return the body that does the same, and is looked at."""
+    return looker.watch(robot)
+
+
+def _onlooker(world: World, sigma: float, body: str) -> BuildRecorder:
     """Return what looks on while the map is built."""
     from topomap.bodies import body_profile
     from topomap.page.of_build import BuildRecorder

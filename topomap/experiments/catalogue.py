@@ -23,6 +23,7 @@ MODULES = (
     "topomap.experiments.merging",
     "topomap.experiments.merging_fleets",
     "topomap.experiments.merging_plans",
+    "topomap.experiments.replaying",
     "topomap.experiments.routes",
 )
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
+from typing import BinaryIO
 
 from topomap.errors import InputError
 
-__all__ = ["check_writable", "make_folder", "write_atomically"]
+__all__ = ["check_writable", "make_folder", "write_atomically", "written_whole"]
 
 
 def write_atomically(path: str | PathLike[str], content: str | bytes) -> None:
@@ -30,13 +33,40 @@ def write_atomically(path: str | PathLike[str], content: str | bytes) -> None:
         If it cannot be written; what was there before is then still there.
     """
     data = content.encode() if isinstance(content, str) else content
+    with written_whole(path) as file:
+        file.write(data)
+
+
+@contextmanager
+def written_whole(path: str | PathLike[str]) -> Iterator[BinaryIO]:
+    """Open a file to be written bit by bit that takes its place when it is whole.
+
+    Where the block is left by an exception, nothing is kept.
+
+    Parameters
+    ----------
+    path : path-like
+        As for `write_atomically`.
+
+    Raises
+    ------
+    InputError
+        If it cannot be written; what was there before is then still there.
+    """
     try:
-        _write(Path(path), data)
+        target = Path(path).resolve()
     except (OSError, ValueError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
-        raise InputError(
-            fspath(path), "", None, f"a file that can be written: {reason}"
-        ) from None
+        raise _unwritable(path, error) from None
+    try:
+        with _opened(target) as file:
+            yield file
+    except OSError as error:
+        raise _unwritable(path, error) from None
+
+
+def _unwritable(path: str | PathLike[str], error: Exception) -> InputError:
+    reason = getattr(error, "strerror", None) or str(error)
+    return InputError(fspath(path), "", None, f"a file that can be written: {reason}")
 
 
 def check_writable(path: str | PathLike[str]) -> None:
@@ -62,15 +92,16 @@ def check_writable(path: str | PathLike[str]) -> None:
         )
 
 
-def _write(path: Path, data: bytes) -> None:
-    if path.exists() and not path.is_file():
-        path.write_bytes(data)
+@contextmanager
+def _opened(target: Path) -> Iterator[BinaryIO]:
+    if target.exists() and not target.is_file():
+        with target.open("wb") as file:
+            yield file
         return
-    target = path.resolve()
     beside = target.with_name(f".{target.name[:100]}.{os.getpid()}.part")
     try:
         with beside.open("xb") as file:
-            file.write(data)
+            yield file
             file.flush()
             os.fsync(file.fileno())
         beside.replace(target)

@@ -1,0 +1,121 @@
+"""How a map is built and its run logged, in one call."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict
+from os import PathLike
+from typing import TYPE_CHECKING
+
+from topomap.bodies import body_parameters
+from topomap.closers import make_closer
+from topomap.found import MAX_WALLS
+from topomap.logs.recording import recording
+from topomap.mapping import Build, build_map
+from worlds.fit import is_open
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from behaviours.parameters import Parameters
+    from behaviours.port import Body
+    from evidence.walls import LoopCloser
+    from worlds.pose import Pose
+    from worlds.world import World
+
+__all__ = ["build_logged"]
+
+
+def build_logged(
+    world: World,
+    rng: np.random.Generator,
+    log: str | PathLike[str],
+    *,
+    body: str = "ideal",
+    sigma: float = 0.06,
+    start: Pose | None = None,
+    parameters: Parameters | None = None,
+    closing: str = "likelihood",
+    max_walls: int = MAX_WALLS,
+    watch: Callable[[Body], Body] | None = None,
+    listen: Callable[[LoopCloser], LoopCloser] | None = None,
+) -> Build:
+    """Build a map as `topomap.build_map` does, and log the run.
+
+    Parameters
+    ----------
+    world : World
+        As for `topomap.build_map`, as all options that are not explained here.
+    rng : numpy.random.Generator
+        Draws all that is drawn.
+    log : path-like
+        MCAP file to write. It is kept of a job that failed, too.
+    body : str
+        Name of the body.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+    start : Pose, optional
+        Where the robot is set down.
+    parameters : Parameters, optional
+        The lengths the robot keeps.
+    closing : str
+        One of `topomap.closers.CLOSINGS`.
+    max_walls : int
+        The loop is given up as open after so many walls.
+    watch : callable, optional
+        Gets the body, and returns one that does the same and looks on.
+    listen : callable, optional
+        Gets the closer, and returns one that does the same and looks on.
+
+    Returns
+    -------
+    Build
+        The same as without a log, bit for bit.
+
+    Raises
+    ------
+    InputError
+        If the log cannot be written, the packages for logs are missing, or as
+        `topomap.build_map`.
+    JobError
+        As `topomap.build_map`.
+
+    Examples
+    --------
+    >>> import numpy as np, worlds
+    >>> from tempfile import TemporaryDirectory
+    >>> from topomap.logs.replaying import read_recorded, replay_map
+    >>> room = worlds.make("l", np.random.default_rng(1))
+    >>> with TemporaryDirectory() as folder:
+    ...     log = folder + "/run.mcap"
+    ...     build = build_logged(room, np.random.default_rng(7), log)
+    ...     recorded, topics = read_recorded(log)
+    >>> replay_map(recorded).map == build.map, topics["/odom"]
+    (True, 'nav_msgs/msg/Odometry')
+    """
+    lengths = parameters or body_parameters(body)
+    closer = make_closer(closing, sigma, lengths)
+    about = {
+        "body": body,
+        "start": None if start is None else asdict(start),
+        "sigma": sigma,
+        "closing": closing,
+        "max_walls": max_walls,
+        "halls": not is_open(world, lengths),
+    }
+    with recording(log, about) as recorder:
+        built = build_map(
+            world,
+            rng,
+            body=body,
+            sigma=sigma,
+            start=start,
+            parameters=parameters,
+            closing=recorder.listen(closer if listen is None else listen(closer)),
+            max_walls=max_walls,
+            watch=lambda robot: recorder.watch(
+                robot if watch is None else watch(robot)
+            ),
+        )
+        recorder.show(built.map)
+    return built
