@@ -34,7 +34,9 @@ __all__ = ["true_hall_maps"]
 
 ROUNDING = 1e-6
 """Lengths that differ by less, in metres, are one length."""
-STRICTLY = 1e-9
+GRID = 1e-8
+"""Coordinates that agree to this, in metres, are equal."""
+STRICTLY = 1e-7
 """Open space is wider than 2 r0 by more, in metres."""
 
 
@@ -132,7 +134,9 @@ def true_hall_maps(world: World, parameters: Parameters) -> tuple[TopologicalMap
 
 def _moved(area: shapely.Geometry, way: float) -> shapely.Geometry:
     """Return an area grown, or eroded, by a square of half-width `way`."""
-    return area.buffer(way, join_style="mitre", mitre_limit=10)
+    moved = area.buffer(way, join_style="mitre", mitre_limit=10)
+    # Walls that sums of decimals put on either side of one line are one wall.
+    return shapely.set_precision(moved, GRID)
 
 
 def _rings(area: shapely.Geometry) -> Iterator[list[tuple[float, float]]]:

@@ -11,7 +11,7 @@ import pytest
 import yaml
 
 from behaviours import Parameters, VertexType
-from merge.makers import make_maze
+from merge.mazes import make_maze
 from topomap import load_map, save_map
 from topomap.formats.converting import convert
 from topomap.formats.graphs import flat, to_graph

@@ -51,14 +51,18 @@ def test_a_map_comes_back_with_its_places_and_mean_lengths(chart, tmp_path_facto
     assert [(v.id, v.position) for v in found.map.vertices] == [
         (v.id, v.position) for v in chart.vertices
     ]
-    kept = {(e.source, e.target): e for e in chart.edges}
+    ways = {}
+    for edge in chart.edges:
+        way = np.hypot(edge.fused.value, edge.shift)
+        ways.setdefault((edge.source, edge.target), []).append(way)
     for edge in found.map.edges:
         if len(edge.lengths) > 1:
             continue  # edges between the same vertices, in one direction
-        given_ = kept[edge.source, edge.target]
-        ahead, left = given_.fused.value, given_.shift
         value = edge.lengths[0].value
-        assert value == pytest.approx(np.hypot(ahead, left), rel=1e-9)
+        assert any(
+            value == pytest.approx(way, rel=1e-9)
+            for way in ways[edge.source, edge.target]
+        )
     taken = sum(len(edge.lengths) for edge in found.map.edges)
     assert taken + found.hidden + found.empty == len(chart.edges)
 

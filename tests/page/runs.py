@@ -8,7 +8,8 @@ import numpy as np
 import worlds
 from behaviours.parameters import Parameters
 from behaviours.vertices import VertexType
-from merge.makers import cut, make_maze, overlapping, perturb, turn
+from merge.makers import cut, overlapping, perturb, turn
+from merge.mazes import make_maze
 from topomap.merging import KINDS, merge_maps
 from topomap.page import (
     Assignment,

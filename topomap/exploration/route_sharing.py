@@ -85,6 +85,7 @@ def routes(
     A pocket 3 cells to the left and a hall 9 cells to the right, seen by one
     robot: the pocket is on no way back, so it goes first.
 
+    >>> from topomap.exploration.details import Details
     >>> routes(np.array([[3.0, 9.0]]), Details(beyond=np.array([[5.0], [900.0]])))
     array([0])
     """
