@@ -55,6 +55,8 @@ class Build:
     """Every base loop as it was walked, and what was made of each wall."""
     recognitions: tuple[Recognition, ...]
     """What was made of vertices beyond halls that may be earlier ones."""
+    refuted: tuple[str, ...]
+    """Why the map was unfolded and begun anew, each time that it was."""
     walls: int
     """How many edges were walked, known ones included."""
     start: Pose
@@ -197,6 +199,7 @@ def _explore_open(
         "closed": walk.period is not None,
         "loops": (walk,),
         "recognitions": (),
+        "refuted": (),
         "walls": len(walk.legs),
     }
 
@@ -211,5 +214,6 @@ def _explore_halls(
         "closed": found.closed,
         "loops": tuple(found.loops),
         "recognitions": tuple(found.recognitions),
+        "refuted": tuple(found.refuted),
         "walls": found.walls,
     }

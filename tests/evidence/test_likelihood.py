@@ -11,9 +11,9 @@ from scipy import integrate, stats
 from evidence import LikelihoodCloser, LikelihoodRule, RelativeError, Wall
 from evidence.tracking import _log_marginal, new_track, restart, step
 from evidence.trials import likelihood_trials
-from tests.evidence.shapes import CLASSES, office, spiral, square, twins
-from tests.evidence.tables import walks
 from tests.evidence.test_dempster_shafer import QUARTER, closed, walked
+from topomap.experiments.shapes import CLASSES, office, spiral, square, twins
+from topomap.experiments.walking import walks
 
 
 @settings(max_examples=30, deadline=None)
@@ -35,7 +35,7 @@ def test_compiled_loop_decides_like_the_library_walk_by_walk(rule):
             errors = sigma * rng.standard_normal((4, 5 * corners))
             starts = rng.integers(corners, size=4)
             lengths, kinds, turns = walks(shape, starts, 5, errors)
-            periods, after, _ = likelihood_trials(lengths, kinds, turns, sigma, rule)
+            periods, after, *_ = likelihood_trials(lengths, kinds, turns, sigma, rule)
             for t in range(4):
                 closer = LikelihoodCloser(RelativeError(sigma), rule)
                 assert closed(closer, lengths[t], kinds[t]) == (periods[t], after[t])
@@ -51,7 +51,7 @@ def rates(shape_of, sigma, worlds, runs, told=1.0, rule=None, laps=4):
         errors = sigma * rng.standard_normal((runs, laps * corners))
         starts = rng.integers(corners, size=runs)
         walk = walks(shape, starts, laps, errors)
-        found, after, _ = likelihood_trials(
+        found, after, *_ = likelihood_trials(
             *walk, told * sigma, rule or LikelihoodRule()
         )
         right = found == corners
