@@ -21,9 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = ["draw_belief", "fill_figure"]
 
+MOST_LOOPS = 4
+"""So many base loops have their belief drawn, the first ones walked."""
+
 
 def fill_figure(built: Build, world: World, figure: Figure) -> None:
-    """Fill a figure: on the left the map over the walls, on the right the belief.
+    """Fill a figure: left the map over the walls, right the belief loop by loop.
 
     Parameters
     ----------
@@ -35,7 +38,9 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
         Empty.
     """
     figure.set_size_inches(13, 7)
-    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
+    loops = (built.loops or (built.walk,))[:MOST_LOOPS]
+    grid = figure.add_gridspec(len(loops), 2, width_ratios=(3, 2), hspace=0.6)
+    left = figure.add_subplot(grid[:, 0])
     draw_world(world, left)
     found = built.comparison
     draw_map(
@@ -59,7 +64,8 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
         f"{len(built.map.vertices)} vertices, {verdict}, {built.travelled:.0f} m",
         fontsize=9,
     )
-    draw_belief(built.walk, right)
+    for k, walk in enumerate(loops):
+        draw_belief(walk, figure.add_subplot(grid[k, 1]))
 
 
 def draw_belief(walk: Walk, ax: Axes) -> Axes:

@@ -301,7 +301,7 @@ def _close_loop(found: Exploration) -> Behaviour[bool]:
             found.closer.observe(Wall(arrival.length, *_corner(place), arrival.shift))
         )
         period = decisions[-1].period
-        if period and found.refuted and len(arrivals) < 2 * period:
+        if period and not _fits(found, places, period):
             period = None
     found.closed = period is not None
     legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
@@ -314,6 +314,16 @@ def _close_loop(found: Exploration) -> Behaviour[bool]:
         found.refuted.append(decisions[-1].reason)
         raise RefutedError(decisions[-1].reason)
     return found.closed
+
+
+def _fits(found: Exploration, places: list[Place], period: int) -> bool:
+    """Return whether the robot may act on a closure.
+
+    It stands before the same ways as at the vertex that it takes this one for; and,
+    once it was wrong, it has met every wall twice.
+    """
+    laps = 2 if found.refuted else 1
+    return places[-1] == places[-1 - period] and len(places) > laps * period
 
 
 def _corner(place: Place) -> tuple[str, float]:
