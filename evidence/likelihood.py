@@ -30,6 +30,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from evidence.starts import later_rule, later_starts
 from evidence.walls import Decision, Hypothesis, RelativeError, Wall
 
 if TYPE_CHECKING:
@@ -126,8 +127,10 @@ class LikelihoodCloser:
 
     A corner whose type alone differs is taken for badly seen (`misseen`); one whose
     turn differs refutes. Missed or invented vertices shift the count: the closure is
-    then refuted, and the loop stays undecided, unless every wall before the slip had
-    not yet been met again.
+    then refuted. So the test is begun anew at later vertices too (`later_starts`),
+    where it asks for a full lap; `Decision.start` says where the loop begins. Only if
+    no wall from the slip on was met again before v_0 was accepted, it goes unnoticed:
+    `full_lap` excludes that.
 
     Of the shifts of walls only the way around makes use.
 
@@ -147,17 +150,14 @@ class LikelihoodCloser:
 
     error: RelativeError
     rule: LikelihoodRule = field(default_factory=LikelihoodRule)
-    _track: Track | None = field(default=None, init=False)
+    _tracks: dict[int, Track] = field(default_factory=dict, init=False)
+    _walls: int = field(default=0, init=False)
     _symbols: dict[tuple[str, int], int] = field(default_factory=dict, init=False)
 
     def begin(self, kind: str, turn: float) -> None:
         """Start at v_0: its type, and the robot's turn there, in radians."""
-        from evidence.tracking import new_track, restart
-
-        rule = self.rule
-        self._symbols = {}
-        self._track = new_track(64, rule.row(self.error.sigma), rule.log_prior())
-        restart(self._track, self._symbol(kind, turn))
+        self._symbols, self._tracks, self._walls = {}, {}, 0
+        self._start(self.rule, self._symbol(kind, turn))
 
     def observe(self, wall: Wall) -> Decision:
         """Take in the next wall, with v_k at its end, and decide.
@@ -169,13 +169,29 @@ class LikelihoodCloser:
         """
         from evidence.tracking import step, widened
 
-        if self._track is None:
+        if not self._tracks:
             raise ValueError("begin must be called before observe")
-        if self._track.state[0] == self._track.lags.shape[1]:
-            self._track = widened(self._track)
         symbol = self._symbol(wall.kind, wall.turn)
-        period = step(self._track, wall.length, wall.shift, symbol, wall.turn)
-        return _decision(self._track, int(period))
+        periods = {}
+        for start, track in self._tracks.items():
+            if track.state[0] == track.lags.shape[1]:
+                self._tracks[start] = track = widened(track)
+            periods[start] = int(
+                step(track, wall.length, wall.shift, symbol, wall.turn)
+            )
+        self._walls += 1
+        if self._walls in later_starts(self._walls + 1):
+            self._start(later_rule(self.rule), symbol)
+        accepted = min((s for s, k in periods.items() if k), default=0)
+        return _decision(self._tracks[accepted], periods[accepted], accepted)
+
+    def _start(self, rule: LikelihoodRule, symbol: int) -> None:
+        """Take the vertex reached, of the given kind, for one where the loop begins."""
+        from evidence.tracking import new_track, restart
+
+        track = new_track(64, rule.row(self.error.sigma), rule.log_prior())
+        restart(track, symbol)
+        self._tracks[self._walls] = track
 
     def _symbol(self, kind: str, turn: float) -> int:
         """Return a small number for a kind of corner; very rare kinds share one."""
@@ -185,9 +201,10 @@ class LikelihoodCloser:
         return self._symbols.setdefault(key, min(len(self._symbols), KINDS - 1))
 
 
-def _decision(track: Track, period: int) -> Decision:
-    """Put the numbers of a walk into words."""
-    walls, live, _, guarded = track.state.tolist()
+def _decision(track: Track, period: int, start: int) -> Decision:
+    """Put the numbers of a walk into words; `track` knows it from v_start on."""
+    seen, live, _, guarded = track.state.tolist()
+    walls = start + seen
     ranked = sorted(
         (posterior, k)
         for posterior, k in zip(
@@ -202,14 +219,15 @@ def _decision(track: Track, period: int) -> Decision:
     chosen = next((h for h in hypotheses if h.period == period), hypotheses[0])
     verb, note = "may have", ""
     if period:
-        verb, note = "has", f"; {_checked(track, walls, period)}"
+        verb, note = "has", f"; {_checked(track, seen, period)}"
+        note += f", those before v_{start} left out" if start else ""
     elif guarded:
         note = f", but {guarded} walls must repeat first"
     reason = (
         f"after {walls} walls the loop {verb} {chosen.period}: "
         f"posterior error {chosen.incorrect:.2g}{note}"
     )
-    return Decision(period or None, chosen.incorrect, hypotheses, reason)
+    return Decision(period or None, chosen.incorrect, hypotheses, reason, start)
 
 
 def _checked(track: Track, walls: int, period: int) -> str:

@@ -567,7 +567,7 @@ def _accept(track: Track, n: int) -> int:
     if best >= 0 and track.state[ACCEPTED] == 0:
         k = track.period[best]
         if 1.0 - track.weight[best, POSTERIOR] < track.rule[EPSILON]:
-            needed = _guard(track, n, k)
+            needed = max(_guard(track, n, k), _disputed(track, n, k))
             if n - k >= needed or _certain(track, n, k):
                 track.state[ACCEPTED] = k
             else:
@@ -582,12 +582,10 @@ def _guard(track: Track, n: int, k: int) -> int:
     The longest run of walls that starts at v_0 and is met again elsewhere on the
     loop proves nothing; nor does one more of what may be a series of such runs.
     """
-    if track.rule[FULL_LAP] > 0:
-        return k
     sigma = 0.0
     for g in range(SCALES):
         sigma += track.scale[BELIEF, g] * _sigma(track, g)
-    needed = 0
+    needed = k if track.rule[FULL_LAP] > 0 else 0
     for d in range(1, k):
         if track.walls[SYMBOL, d] != track.walls[SYMBOL, 0]:
             continue
@@ -612,6 +610,27 @@ def _guard(track: Track, n: int, k: int) -> int:
             needed = max(needed, min(run + d + 2, k))
         else:
             needed = max(needed, min(run + 2 + run // 4, k))
+    return needed
+
+
+@compiled
+def _disputed(track: Track, n: int, k: int) -> int:
+    """Return how many walls after v_k have to repeat to settle what corners are.
+
+    A corner that was seen in two ways is met again until one of them has won.
+    """
+    symbols = track.walls[SYMBOL]
+    counts = np.zeros(KINDS, dtype=np.int64)
+    needed = 0
+    for i in range(min(k, n + 1 - k)):
+        counts[:] = 0
+        last = i
+        for j in range(i, n + 1, k):
+            counts[int(symbols[j])] += 1
+            last = j
+        most = counts.max()
+        if (counts == most).sum() > 1:
+            needed = max(needed, last)
     return needed
 
 

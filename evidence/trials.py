@@ -16,6 +16,7 @@ from numba import njit
 
 from evidence.dempster_shafer import PublishedRule, Readings
 from evidence.phi import Freedom, Variance
+from evidence.starts import later_rule, later_starts
 from evidence.tracking import KINDS, Track, new_track, restart, step
 
 if TYPE_CHECKING:
@@ -37,7 +38,7 @@ def likelihood_trials(
     turns: Floats,
     sigma: float,
     rule: LikelihoodRule,
-) -> tuple[Integers, Integers, Floats]:
+) -> tuple[Integers, Integers, Floats, Integers]:
     """Decide many walks by the likelihood test.
 
     Parameters
@@ -61,6 +62,8 @@ def likelihood_trials(
         After how many walls it was accepted.
     errors : ndarray, shape (T,)
         Stated error probability then.
+    starts : ndarray of int, shape (T,)
+        The vertex at which the accepted loop begins.
 
     Raises
     ------
@@ -68,36 +71,71 @@ def likelihood_trials(
         If a symbol is out of range, or the shapes do not belong together.
     """
     _check(lengths, symbols, turns)
-    track = new_track(lengths.shape[1], rule.row(sigma), rule.log_prior())
+    first = new_track(lengths.shape[1], rule.row(sigma), rule.log_prior())
+    later = new_track(lengths.shape[1], later_rule(rule).row(sigma), rule.log_prior())
+    begins = np.array(later_starts(lengths.shape[1]), dtype=np.int64)
     count = len(lengths)
-    periods = np.zeros(count, dtype=np.int64)
-    walls = np.zeros(count, dtype=np.int64)
+    periods, walls, starts = np.zeros((3, count), dtype=np.int64)
     errors = np.ones(count)
-    _likelihood_loop(track, lengths, symbols, turns, periods, walls, errors)
-    return periods, walls, errors
+    for track, at in ((first, begins[:0]), (later, begins)):
+        _likelihood_loop(
+            track, at, lengths, symbols, turns, periods, walls, errors, starts
+        )
+    return periods, walls, errors, starts
 
 
 @njit(cache=True, error_model="numpy")
 def _likelihood_loop(
     track: Track,
+    begins: Integers,
     lengths: Floats,
     symbols: Integers,
     turns: Floats,
     periods: Integers,
     walls: Integers,
     errors: Floats,
+    starts: Integers,
 ) -> None:
+    """Decide all walks from v_0, or where that comes too late, from later vertices.
+
+    A later start only counts if it is accepted before all earlier ones.
+    """
     for t in range(lengths.shape[0]):
-        restart(track, symbols[t, 0])
-        for i in range(lengths.shape[1]):
-            k = step(track, lengths[t, i], 0.0, symbols[t, i + 1], turns[t, i])
-            if k > 0:
+        if len(begins) == 0:
+            walls[t] = lengths.shape[1]
+            _walk(track, 0, t, lengths, symbols, turns, periods, walls, errors, starts)
+        for begin in begins:
+            # Two laps of at least four walls, and sooner than what is known.
+            if begin + 8 > walls[t] - (periods[t] > 0):
                 break
-        periods[t] = k
-        walls[t] = i + 1
-        for c in range(track.state[1]):
-            if track.period[c] == k:
-                errors[t] = 1.0 - track.weight[c, -1]
+            _walk(
+                track, begin, t, lengths, symbols, turns, periods, walls, errors, starts
+            )
+
+
+@njit(cache=True, error_model="numpy")
+def _walk(
+    track: Track,
+    begin: int,
+    t: int,
+    lengths: Floats,
+    symbols: Integers,
+    turns: Floats,
+    periods: Integers,
+    walls: Integers,
+    errors: Floats,
+    starts: Integers,
+) -> None:
+    """Walk from one vertex until the loop is closed, if before it was otherwise."""
+    restart(track, symbols[t, begin])
+    for i in range(begin, walls[t] - (periods[t] > 0)):
+        k = step(track, lengths[t, i], 0.0, symbols[t, i + 1], turns[t, i])
+        if k > 0:
+            periods[t], walls[t], starts[t] = k, i + 1, begin
+            for c in range(track.state[1]):
+                if track.period[c] == k:
+                    errors[t] = 1.0 - track.weight[c, -1]
+            return
 
 
 def published_trials(

@@ -115,6 +115,11 @@ class Decision:
     """Those that still live, the most believed first."""
     reason: str
     """One sentence with the numbers that decided."""
+    start: int = 0
+    """The loop is made of the walls from v_start on; those before are not part of it.
+
+    Above 0 where no loop from v_0 fits, as when a corner was missed or invented.
+    """
 
 
 class LoopCloser(Protocol):

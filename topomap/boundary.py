@@ -38,6 +38,15 @@ class Walk:
         """How many walls the loop has; None while it is open."""
         return self.decisions[-1].period if self.decisions else None
 
+    @property
+    def loop(self) -> Walk:
+        """What of it is the loop: from the vertex on where that begins."""
+        start = self.decisions[-1].start if self.period else 0
+        if start == 0:
+            return self
+        first = self.legs[start - 1].corner
+        return Walk(first, self.legs[start:], self.decisions[start:])
+
 
 def map_boundary(
     parameters: Parameters, closer: LoopCloser, max_walls: int

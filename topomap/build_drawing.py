@@ -21,9 +21,12 @@ if TYPE_CHECKING:
 
 __all__ = ["draw_belief", "draw_build", "fill_figure"]
 
+MOST_LOOPS = 4
+"""So many base loops have their belief drawn, the first ones walked."""
+
 
 def fill_figure(built: Build, world: World, figure: Figure) -> None:
-    """Fill a figure: on the left the map over the walls, on the right the belief.
+    """Fill a figure: left the map over the walls, right the belief loop by loop.
 
     Parameters
     ----------
@@ -35,9 +38,11 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
         Empty.
     """
     figure.set_size_inches(13, 7)
-    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
-    draw_build(built, world, left)
-    draw_belief(built.walk, right)
+    loops = (built.loops or (built.walk,))[:MOST_LOOPS]
+    grid = figure.add_gridspec(len(loops), 2, width_ratios=(3, 2), hspace=0.6)
+    draw_build(built, world, figure.add_subplot(grid[:, 0]))
+    for k, walk in enumerate(loops):
+        draw_belief(walk, figure.add_subplot(grid[k, 1]))
 
 
 def draw_build(built: Build, world: World, ax: Axes) -> Axes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -27,10 +28,18 @@ if TYPE_CHECKING:
     from behaviours.port import Behaviour
     from behaviours.ways import Ways
 
-__all__ = ["Exploration", "explore_halls"]
+__all__ = ["Exploration", "RefutedError", "explore_halls"]
 
 ERROR = 1e-3
 """A vertex is taken for another, or for a new one, when it is less likely wrong."""
+OFF = 8.0
+"""A known edge is refuted by a length that is off by more standard deviations, ..."""
+SLACK = 0.5
+"""... and by more metres: robots do not stop at the same spot of a place."""
+
+
+class RefutedError(Exception):
+    """The map was wrong; it has been begun anew where the robot stands."""
 
 
 @dataclass(slots=True)
@@ -55,6 +64,13 @@ class Exploration:
     """The base loops, as they were walked."""
     recognitions: list[Recognition] = field(default_factory=list)
     """What was made of each place that might be one met before."""
+    refuted: list[str] = field(default_factory=list)
+    """Why the map was begun anew, each time that it was."""
+
+    @property
+    def error(self) -> float:
+        """What is still called sure; less each time that it was not."""
+        return float(ERROR / 10 ** len(self.refuted))
 
 
 def explore_halls(
@@ -86,8 +102,14 @@ def explore_halls(
     Raises
     ------
     JobError
-        From the running coroutine, where the robot comes to a place that its map
-        does not have there.
+        From the running coroutine, where the robot has lost its wall.
+
+    Notes
+    -----
+    Where the robot comes to a place that its map does not have there, a loop was
+    closed or a place recognised wrongly, or a vertex was missed. The map is then
+    unfolded: it is begun anew where the robot stands, and the robot goes on. It has
+    become more careful: loops are walked twice, and places must be ten times as sure.
     """
     found = Exploration(parameters, closer, sigma, max_walls)
 
@@ -107,8 +129,15 @@ def explore_halls(
         State.OUT: step_out,
         State.PLACE: place,
     }
-    yield from perform(EXPLORE, actions, State.LOOK)
-    return found
+    state = State.LOOK
+    while True:
+        try:
+            yield from perform(EXPLORE, actions, state)
+        except RefutedError:
+            is_open = _is_open_loop(found.chart, found.here)
+            state = State.LOOP if is_open else State.GOTO
+        else:
+            return found
 
 
 def _is_in_hall(parameters: Parameters) -> Behaviour[bool]:
@@ -166,18 +195,28 @@ def _leave(
 
 def _go(found: Exploration, quarters: int) -> Behaviour[None]:
     """GOTO: walk a known edge, and measure it once more."""
-    places = found.chart.places
-    link = found.chart.links[found.here, quarters]
-    there, _ = link.beyond((found.here, quarters))
-    place, arrival = yield from _leave(found, places[found.here], quarters)
-    if place != places[there]:
-        raise JobError(
+    places, source = found.chart.places, found.here
+    link = found.chart.links[source, quarters]
+    there, _ = link.beyond((source, quarters))
+    place, arrival = yield from _leave(found, places[source], quarters)
+    off = abs(arrival.length - link.length)
+    if place != places[there] or off > OFF * found.sigma * link.length + SLACK:
+        found.refuted.append(
             f"vertex {there}, {places[there].type.name}, was expected "
-            f"{link.lengths[0]:.2f} m from vertex {found.here}; "
+            f"{link.length:.2f} m from vertex {source}; "
             f"{place.type.name} was found {arrival.length:.2f} m away"
         )
+        _begin_anew(found, place)
+        raise RefutedError(found.refuted[-1])
     link.measure(arrival)
     found.here = there
+
+
+def _begin_anew(found: Exploration, place: Place) -> None:
+    """Unfold the map: all that is left of it is the place where the robot stands."""
+    found.chart.places.clear()
+    found.chart.links.clear()
+    found.here = found.chart.add_place(place)
 
 
 def _step_out(found: Exploration, quarters: int) -> Behaviour[int]:
@@ -212,7 +251,7 @@ def _identify(found: Exploration, vertex: int) -> Behaviour[bool]:
             continue
         recognition = recognise(chart, found.parameters, found.sigma, vertex)
         found.recognitions.append(recognition)
-        if not recognition.is_sure(ERROR):
+        if not recognition.is_sure(found.error):
             best, _ = recognition.candidates[0]
             telling = _telling_way(chart, vertex, best)
             if _is_open_loop(chart, vertex):
@@ -274,11 +313,29 @@ def _close_loop(found: Exploration) -> Behaviour[bool]:
             found.closer.observe(Wall(arrival.length, *_corner(place), arrival.shift))
         )
         period = decisions[-1].period
+        if period and not _fits(found, places, period):
+            period = None
     found.closed = period is not None
     legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
     found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
-    _fold(found, places, arrivals, period or len(places))
+    start = decisions[-1].start if period and decisions else 0
+    if start:
+        _begin_anew(found, places[start])
+    _fold(found, places[start:], arrivals[start:], period or len(places))
+    if start:
+        found.refuted.append(decisions[-1].reason)
+        raise RefutedError(decisions[-1].reason)
     return found.closed
+
+
+def _fits(found: Exploration, places: list[Place], period: int) -> bool:
+    """Return whether the robot may act on a closure.
+
+    It stands before the same ways as at the vertex that it takes this one for; and,
+    once it was wrong, it has met every wall twice.
+    """
+    laps = 2 if found.refuted else 1
+    return places[-1] == places[-1 - period] and len(places) > laps * period
 
 
 def _corner(place: Place) -> tuple[str, float]:
@@ -304,7 +361,11 @@ def _fold(
 ) -> None:
     """Put the walls of a loop into the map, each once with all its lengths."""
     chart = found.chart
-    numbers = [found.here, *map(chart.add_place, places[1:period])]
+    likeliest = [
+        Counter(places[k::period]).most_common(1)[0][0]
+        for k in range(min(period, len(places)))
+    ]
+    numbers = [found.here, *map(chart.add_place, likeliest[1:])]
     for k, arrival in enumerate(arrivals):
         quarters = places[k].ways.index(Way.WALL_RIGHT)
         end = numbers[k % period], quarters

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from itertools import accumulate
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,7 @@ from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 if TYPE_CHECKING:
     from behaviours.follow_wall import Leg
     from behaviours.parameters import Parameters
+    from behaviours.vertices import VertexType
     from topomap.boundary import Walk
 
 __all__ = ["FARTHEST", "fold"]
@@ -39,7 +41,8 @@ def fold(walk: Walk, parameters: Parameters, sigma: float) -> TopologicalMap:
     -------
     TopologicalMap
         Embedded. Its x axis is the robot's heading when it came to v_0, its
-        origin v_0, its ids count the corners in the order met.
+        origin v_0, its ids count the corners in the order met. Where the loop
+        begins later, that vertex stands for v_0.
 
     Notes
     -----
@@ -47,9 +50,12 @@ def fold(walk: Walk, parameters: Parameters, sigma: float) -> TopologicalMap:
     weights taken from each measured length would favour the short ones and pull
     the fused length down, by 1 % at sigma 10 % and 4 % at 20 %.
     """
+    walk = walk.loop
     period = walk.period
     kinds = [walk.first, *(leg.corner for leg in walk.legs)]
     count = len(kinds) if period is None else period
+    if period:
+        kinds[:period] = [_likeliest(kinds[k::period]) for k in range(period)]
     leaving = list(accumulate(quarter_of(TURN[kind]) for kind in kinds))
     arriving = [0, *leaving]
     vertices = tuple(
@@ -66,6 +72,11 @@ def fold(walk: Walk, parameters: Parameters, sigma: float) -> TopologicalMap:
         for k in range(min(len(walk.legs), count))
     )
     return TopologicalMap(placed(vertices, edges), edges, parameters)
+
+
+def _likeliest(seen: list[VertexType]) -> VertexType:
+    """Return what a corner was taken for most often."""
+    return Counter(seen).most_common(1)[0][0]
 
 
 def _edge(

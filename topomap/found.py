@@ -43,6 +43,8 @@ class Found:
     """What was made of vertices beyond halls that may be earlier ones."""
     walls: int
     """How many edges were walked, known ones included."""
+    refuted: tuple[str, ...]
+    """Why the map was unfolded and begun anew, each time that it was."""
 
     @property
     def hypotheses(self) -> int:
@@ -129,7 +131,7 @@ def _explore_open(
     """Map the one boundary loop that is all there is without halls."""
     walk = run(map_boundary(body.parameters, closer, max_walls), body)
     chart = fold(walk, body.parameters, sigma)
-    return Found(chart, walk.period is not None, (walk,), (), len(walk.legs))
+    return Found(chart, walk.period is not None, (walk,), (), len(walk.legs), ())
 
 
 def _explore_halls(
@@ -143,6 +145,7 @@ def _explore_halls(
         tuple(found.loops),
         tuple(found.recognitions),
         found.walls,
+        tuple(found.refuted),
     )
 
 

@@ -161,6 +161,7 @@ def build_map(
         chart = improvement.map
     return Build(
         *(chart, found.closed, found.loops, found.recognitions, found.walls),
+        found.refuted,
         compare_wholes(chart, in_one(truth))
         if improve == "active"
         else compare_maps(chart, *truth),

@@ -18,7 +18,8 @@ from evidence.dempster_shafer import PublishedRule, Readings
 from evidence.likelihood import LikelihoodRule
 from evidence.phi import Freedom, Variance
 from evidence.trials import likelihood_trials, published_trials
-from tests.evidence.shapes import CLASSES
+from topomap.experiments.shapes import CLASSES
+from topomap.experiments.walking import deviations, laps_for, slipped, walks
 from topomap.experiments.wilson import wilson_interval
 
 READINGS = {
@@ -29,71 +30,6 @@ READINGS = {
     "n - 1 degrees of freedom": {"freedom": Freedom.LESS_ONE},
     "r* as (3.1) prints it": {"r_star": math.hypot(0.3, 0.15)},
 }
-
-
-def laps_for(corners):
-    """Return after how many laps a walk is given up as undecided."""
-    return 16 if corners <= 4 else 8 if corners <= 16 else 4
-
-
-def walks(shape, starts, laps, deviations):
-    """Return measured lengths, kinds and turns of one walk from each start."""
-    lengths, turns = shape
-    corners = len(lengths)
-    index = (starts[:, None] + np.arange(corners * laps)) % corners
-    measured = np.abs(lengths[index] * (1 + deviations))
-    before = turns[(starts - 1) % corners][:, None]
-    kinds = (np.hstack([before, turns[index]]) > 0).astype(np.int64)
-    return measured, kinds, turns[index] * (math.pi / 2)
-
-
-def deviations(noise, sigma, shape, corners, rng):
-    """Return relative errors of walls: of the model or, by name, not of it."""
-    if noise == "tails":  # Student's t with 3 degrees of freedom, scaled to sigma
-        return sigma * rng.standard_t(3, shape) / math.sqrt(3)
-    errors = sigma * rng.standard_normal(shape)
-    if noise == "drift":  # 3 % longer with every lap
-        errors += 0.03 * (np.arange(shape[1]) // corners)
-    return errors
-
-
-def slipped(walk, rate, rng):
-    """Return a walk on which some corners are seen wrong, and where the first is.
-
-    At `rate` per corner a vertex is seen as the other kind, a jutting pair is
-    invented within a wall, or a pair of opposite corners is missed.
-    """
-    lengths, kinds, turns = (row.tolist() for row in walk)
-    quarter = math.pi / 2
-    out, symbols, bends, first = [], [kinds[0]], [], len(lengths)
-    i = 0
-    while i < len(lengths):
-        event = rng.random() < rate
-        what = rng.integers(3) if event else -1
-        missable = i + 2 < len(lengths) and turns[i] == -turns[i + 1]
-        if event:
-            first = min(first, len(out))
-        if what == 0:
-            out.append(lengths[i])
-            symbols.append(1 - kinds[i + 1])
-            bends.append(turns[i])
-        elif what == 1:
-            part = rng.uniform(0.2, 0.8) * lengths[i]
-            out += [part, 0.2, lengths[i] - part]
-            symbols += [1, 0, kinds[i + 1]]
-            bends += [quarter, -quarter, turns[i]]
-        elif what == 2 and missable:
-            out.append(lengths[i] + lengths[i + 2])
-            symbols.append(kinds[i + 3])
-            bends.append(turns[i + 2])
-            i += 2
-        else:
-            out.append(lengths[i])
-            symbols.append(kinds[i + 1])
-            bends.append(turns[i])
-        i += 1
-    size = len(lengths) - 16
-    return (out[:size], symbols[: size + 1], bends[:size]), first
 
 
 def measure(name, sigma, args, told=1.0, noise="model"):

@@ -17,8 +17,8 @@ from evidence import (
     Wall,
 )
 from evidence.trials import published_trials
-from tests.evidence.shapes import CLASSES, ell, spiral
-from tests.evidence.tables import walks
+from topomap.experiments.shapes import CLASSES, ell, spiral
+from topomap.experiments.walking import walks
 
 QUARTER = math.pi / 2
 KIND = {1: "INT", -1: "EXT"}

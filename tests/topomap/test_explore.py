@@ -1,6 +1,7 @@
 """EXPLORE maps worlds of rooms and halls as they are, and to the end."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,9 +14,11 @@ from behaviours import Parameters
 from behaviours.opposite import opposite
 from behaviours.port import Side, run
 from behaviours.probe import probe
+from behaviours.travel import travel
 from behaviours.vertices import VertexType
 from tests.worlds.hall_class import census
-from topomap import build_map, compare_maps
+from topomap import build_map, compare_maps, explore
+from topomap.closers import make_closer
 from topomap.errors import InputError
 from topomap.hall_truth import true_hall_maps
 from topomap.truth import true_map, true_maps
@@ -256,3 +259,73 @@ def test_walls_run_out_is_no_closed_map():
 def test_sigma_is_checked_before_anything_else():
     with pytest.raises(InputError, match="sigma"):
         build_map(TWO_ROOMS, np.random.default_rng(1), sigma=math.nan)
+
+
+class Hasty:
+    """A loop closer that takes its first loop for one of so many walls."""
+
+    def __init__(self, period):
+        self.period = period
+        self.closer = make_closer("likelihood", 0.0, ROBOT)
+
+    def begin(self, kind, turn):
+        self.closer.begin(kind, turn)
+        self.walls = 0
+
+    def observe(self, wall):
+        decision = self.closer.observe(wall)
+        self.walls += 1
+        if decision.period:
+            self.period = None
+        if self.period and self.walls >= self.period:
+            return replace(decision, period=self.period)
+        return decision
+
+
+@pytest.mark.parametrize("period", [2, 4, 6])
+def test_a_closure_that_does_not_fit_the_place_is_not_acted_on(period):
+    built = build_map(
+        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Hasty(period)
+    )
+    assert built.correct
+    assert built.refuted == ()
+
+
+@pytest.mark.parametrize("slips_at", [18, 24, 28])
+def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, slips_at):
+    """One edge is measured 3 m too long; another walk along it tells."""
+    walked = 0
+
+    def travelled(*args):
+        nonlocal walked
+        walked += 1
+        off = 3.0 if walked == slips_at else 0.0
+        arrival = yield from travel(*args)
+        return replace(arrival, length=arrival.length + off)
+
+    monkeypatch.setattr(explore, "travel", travelled)
+    built = build_map(TWO_ROOMS, np.random.default_rng(1), sigma=0.0, max_walls=150)
+    assert len(built.refuted) == 1
+    assert "was expected" in built.refuted[0]
+    assert built.correct
+    assert built.map.unexplored_exits == 0
+
+
+def test_a_loop_that_begins_later_begins_the_map_anew():
+    class Late(Hasty):
+        laps = 4
+
+        def observe(self, wall):
+            decision = self.closer.observe(wall)
+            if decision.period and self.laps > 0:
+                self.laps -= 1
+                if self.laps == 0:
+                    return replace(decision, start=3, reason="it slipped")
+                return replace(decision, period=None)
+            return decision
+
+    built = build_map(
+        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Late(None)
+    )
+    assert built.refuted == ("it slipped",)
+    assert built.correct

@@ -15,6 +15,7 @@ __all__ = ["catalogue", "find"]
 
 MODULES = (
     "topomap.experiments.closing",
+    "topomap.experiments.closing_classes",
     "topomap.experiments.exploring",
     "topomap.experiments.floor_plans",
     "topomap.experiments.halls",

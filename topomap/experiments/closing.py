@@ -46,6 +46,7 @@ WORLDS: dict[str, tuple[str, dict[str, object]]] = {
     "plus": ("plus", {}),
     "random 20": ("random", {"corners": 20}),
     "random 60": ("random", {"corners": 60}),
+    "random 100": ("random", {"corners": 100}),
     "spiral": ("spiral", {}),
     "comb": ("comb", {}),
 }
@@ -108,7 +109,7 @@ def decide(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
         if isinstance(rule, PublishedRule):
             periods, counts = published_trials(*drawn, sigma, rule)
         else:
-            periods, counts, _ = likelihood_trials(*drawn, sigma, rule)
+            periods, counts, *_ = likelihood_trials(*drawn, sigma, rule)
         size = len(boundary.lengths)
         total["correct"] += int((periods == size).sum())
         total["undecided"] += int((periods == 0).sum())
@@ -131,6 +132,7 @@ def _experiment(name: str, question: str, classes: tuple[str, ...]) -> Experimen
         shares=("correct", "wrong", "undecided"),
         means=("extra_laps",),
         x="sigma",
+        paired=("rule",),
     )
 
 
@@ -149,5 +151,10 @@ EXPERIMENTS = (
         "closing-comb",
         "How often does each rule close a loop of identical teeth? ([K] 5.4)",
         ("comb",),
+    ),
+    _experiment(
+        "closing-realistic",
+        "How often does each rule close the loop of a large world rightly? ([K] 5.5)",
+        ("random 100",),
     ),
 )

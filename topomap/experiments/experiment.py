@@ -39,6 +39,8 @@ class Experiment:
     """Tallies shown as means over the trials."""
     x: str = ""
     """The condition along the plot's axis; the others tell its lines apart."""
+    paired: tuple[str, ...] = ()
+    """Conditions that do not enter the seed: their cells see the same draws."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,11 +67,12 @@ def tasks_of(experiment: Experiment, trials: int, seed: int) -> list[Task]:
 def run_task(experiment: Experiment, task: Task) -> Tallies:
     """Make the trials of one task.
 
-    The generator is seeded by the task's seed, its cell's conditions and its
-    batch: the same whatever else is run, and by whom.
+    The generator is seeded by the task's seed, its cell's conditions but for those
+    that are paired, and its batch: the same whatever else is run, and by whom.
     """
     cell = experiment.cells[task.cell]
-    conditions = repr(sorted(cell.items())).encode()
+    seeding = (row for row in cell.items() if row[0] not in experiment.paired)
+    conditions = repr(sorted(seeding)).encode()
     key = [task.seed, zlib.crc32(experiment.name.encode()), zlib.crc32(conditions)]
     rng = np.random.default_rng([*key, task.batch])
     return {**experiment.batch(cell, rng, task.trials), "trials": task.trials}

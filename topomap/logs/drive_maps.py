@@ -86,7 +86,7 @@ def map_drive(
     chart = fold(best, lengths, sigma)
     simulated = float(drive.times[-1] - drive.times[0])
     return Replay(
-        *(chart, best.period is not None, (best,), (), len(best.legs)),
+        *(chart, best.period is not None, (best,), (), len(best.legs), ()),
         float(drive.way[-1]),
         simulated,
     )

@@ -192,6 +192,7 @@ def replay_map(
     )
     return Replay(
         *(found.map, found.closed, found.loops, found.recognitions, found.walls),
+        found.refuted,
         body.travelled,
         body.clock,
         body.collisions,

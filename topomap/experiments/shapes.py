@@ -4,10 +4,24 @@ A boundary is a pair of arrays: wall i has length[i] metres, and at its end the
 robot, with the wall on its right, turns by turn[i] quarters to the left.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeAlias
+
 import numpy as np
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-def boundary(points):
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["CLASSES", "Shape", "boundary", "started"]
+
+Shape: TypeAlias = "tuple[NDArray[np.float64], NDArray[np.int64]]"
+"""Lengths in metres, and turns in quarter turns to the left, +1 or -1."""
+
+
+def boundary(points: ArrayLike) -> Shape:
     """Return lengths and quarter turns of a polygon, counter-clockwise."""
     p = np.asarray(points, dtype=float)
     step = np.roll(p, -1, axis=0) - p
@@ -19,29 +33,29 @@ def boundary(points):
     return np.hypot(step[:, 0], step[:, 1]), np.sign(cross).astype(np.int64)
 
 
-def started(shape, start):
+def started(shape: Shape, start: int) -> Shape:
     """Return the same boundary with another v_0."""
     lengths, turns = shape
     return np.roll(lengths, -start), np.roll(turns, -start)
 
 
-def rectangle(rng):
+def rectangle(rng: np.random.Generator) -> Shape:
     a, b = rng.uniform(2, 10, 2)
     return boundary([(0, 0), (a, 0), (a, b), (0, b)])
 
 
-def square(rng):
+def square(rng: np.random.Generator) -> Shape:
     a = rng.uniform(2, 10)
     return boundary([(0, 0), (a, 0), (a, a), (0, a)])
 
 
-def ell(rng):
+def ell(rng: np.random.Generator) -> Shape:
     a, b = rng.uniform(3, 10, 2)
     c, d = a * rng.uniform(0.2, 0.8), b * rng.uniform(0.2, 0.8)
     return boundary([(0, 0), (a, 0), (a, d), (c, d), (c, b), (0, b)])
 
 
-def tee(rng):
+def tee(rng: np.random.Generator) -> Shape:
     a, b = rng.uniform(3, 10, 2)
     c, d = np.sort(rng.uniform(0.15, 0.85, 2)) * a
     if d - c < 0.1 * a:
@@ -50,7 +64,7 @@ def tee(rng):
     return boundary([(0, e), (c, e), (c, 0), (d, 0), (d, e), (a, e), (a, b), (0, b)])
 
 
-def you(rng):
+def you(rng: np.random.Generator) -> Shape:
     a, b, f = rng.uniform(3, 10, 3)
     c, d = np.sort(rng.uniform(0.15, 0.85, 2)) * a
     e = min(b, f) * rng.uniform(0.2, 0.8)
@@ -59,13 +73,14 @@ def you(rng):
     return boundary([(0, 0), (a, 0), (a, f), (d, f), (d, e), (c, e), (c, b), (0, b)])
 
 
-def small(rng):
+def small(rng: np.random.Generator) -> Shape:
     """Return L, T, U, and random shapes of 6 to 16 corners."""
-    make = [ell, tee, you, lambda r: grown(r, 2 * r.integers(3, 9))]
-    return make[rng.integers(4)](rng)
+    make = (ell, tee, you)
+    which = int(rng.integers(4))
+    return make[which](rng) if which < 3 else grown(rng, 2 * int(rng.integers(3, 9)))
 
 
-def spiral(rng):
+def spiral(rng: np.random.Generator) -> Shape:
     """Return a corridor wound inward for 1 to 6 wraps, walked on both of its sides."""
     wraps = rng.integers(1, 7)
     width = rng.uniform(0.8, 1.5)
@@ -102,7 +117,7 @@ def spiral(rng):
     return boundary(outer + inner[::-1])
 
 
-def comb(rng):
+def comb(rng: np.random.Generator) -> Shape:
     """Return a hall with 3 to 10 equal teeth on one side."""
     teeth = rng.integers(3, 11)
     width, gap, depth, hall = rng.uniform(0.8, 3, 4)
@@ -121,7 +136,7 @@ def comb(rng):
     return boundary(points)
 
 
-def stairs(rng):
+def stairs(rng: np.random.Generator) -> Shape:
     """Return a staircase of 3 to 10 equal steps along the diagonal of a room."""
     steps = rng.integers(3, 11)
     tread, rise = rng.uniform(0.5, 2, 2)
@@ -132,14 +147,14 @@ def stairs(rng):
     return boundary(points[:-1] + ([] if points[-1] == (0, 0) else [points[-1]]))
 
 
-def office(rng):
+def office(rng: np.random.Generator) -> Shape:
     """Return a corridor with 2 to 8 equal rooms on each side, entered by doors."""
     rooms = rng.integers(2, 9)
     room, depth = rng.uniform(2, 5, 2)
     door, wall, hall = rng.uniform(0.8, 1.2), rng.uniform(0.1, 0.3), rng.uniform(1, 2.5)
     at = rng.uniform(0.1, 0.9) * (room - door)
 
-    def side():
+    def side() -> list[tuple[float, float]]:
         points = []
         for i in range(rooms):
             x = i * (room + wall)
@@ -164,13 +179,13 @@ def office(rng):
     return boundary(lower + upper)
 
 
-def plus(rng):
+def plus(rng: np.random.Generator) -> Shape:
     """Return a regular plus: four equal arms."""
     arm, width = rng.uniform(1, 5, 2)
     return np.tile([arm, width, arm], 4), np.tile([1, 1, -1], 4)
 
 
-def symmetric(rng):
+def symmetric(rng: np.random.Generator) -> Shape:
     """Return a shape of 2-fold symmetry, grown at random on one side."""
     if rng.random() < 0.3:
         return plus(rng)
@@ -178,14 +193,14 @@ def symmetric(rng):
     return np.tile(lengths, 2), np.tile(turns, 2)
 
 
-def half(rng):
+def half(rng: np.random.Generator) -> Shape:
     """Return half a boundary that closes when walked twice: it turns by half a turn."""
     a, b, c = rng.uniform(1, 5, 3)
     # An S tetromino-like shape with free lengths: turns +1 +1 -1 +1.
     return np.array([a + b, c, a, c + b]), np.array([1, 1, -1, 1])
 
 
-def twins(rng):
+def twins(rng: np.random.Generator) -> Shape:
     """Return two rooms that are exactly equal, and the rest of the house is not."""
     room, depth = rng.uniform(2, 5, 2)
     door, wall, hall = rng.uniform(0.8, 1.2), rng.uniform(0.1, 0.3), rng.uniform(1, 2.5)
@@ -210,15 +225,15 @@ def twins(rng):
     return lengths, turns
 
 
-def grown(rng, corners, equal=False):
-    """Return a random simple rectilinear shape, grown cell by cell on an uneven grid."""
+def grown(rng: np.random.Generator, corners: int, *, equal: bool = False) -> Shape:
+    """Return a random simple rectilinear shape, grown on an uneven grid."""
     while True:
-        shape = _grown(rng, corners, equal)
+        shape = _grown(rng, corners, equal=equal)
         if shape is not None:
             return shape
 
 
-def _grown(rng, corners, equal):
+def _grown(rng: np.random.Generator, corners: int, *, equal: bool) -> Shape | None:
     size = 2 * int(np.sqrt(corners)) + 6
     cells = np.zeros((size, size), dtype=bool)
     cells[size // 2, size // 2] = True
@@ -253,14 +268,16 @@ def _grown(rng, corners, equal):
     return None
 
 
-def _corners(cells):
+def _corners(cells: NDArray[np.bool_]) -> int:
     quads = (
         cells[:-1, :-1].astype(int) + cells[1:, :-1] + cells[:-1, 1:] + cells[1:, 1:]
     )
     return int(np.sum((quads == 1) | (quads == 3)))
 
 
-def _traced(cells, xs, ys):
+def _traced(
+    cells: NDArray[np.bool_], xs: NDArray[np.float64], ys: NDArray[np.float64]
+) -> list[tuple[float, float]]:
     """Return the corners of the outline, the cells on its left."""
     i, j = np.argwhere(cells)[0]  # least i, then least j: lower left in x
     x, y, dx, dy = i, j, 0, -1
@@ -274,8 +291,8 @@ def _traced(cells, xs, ys):
         x, y = x + dx, y + dy
 
         # cells ahead-left and ahead-right of the grid point
-        def cell(px, py):
-            return cells[px, py]
+        def cell(px: int, py: int) -> bool:
+            return bool(cells[px, py])
 
         ax, ay = dx, dy
         lx, ly = -dy, dx
@@ -291,20 +308,20 @@ def _traced(cells, xs, ys):
     return [(xs[px], ys[py]) for px, py in points]
 
 
-def medium(rng):
+def medium(rng: np.random.Generator) -> Shape:
     return grown(rng, 20)
 
 
-def large(rng):
-    return grown(rng, 2 * rng.integers(20, 51))
+def large(rng: np.random.Generator) -> Shape:
+    return grown(rng, 2 * int(rng.integers(20, 51)))
 
 
-def grid(rng):
+def grid(rng: np.random.Generator) -> Shape:
     """Return a random shape whose walls are whole metres: many are equal by chance."""
-    return grown(rng, 2 * rng.integers(10, 21), equal=True)
+    return grown(rng, 2 * int(rng.integers(10, 21)), equal=True)
 
 
-CLASSES = {
+CLASSES: dict[str, Callable[[np.random.Generator], Shape]] = {
     f.__name__: f
     for f in (
         small,
