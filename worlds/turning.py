@@ -42,7 +42,10 @@ def spin(robot: Robot, angle: float) -> Control[None]:
 
 def turn(robot: Robot, primitive: Turn) -> Control[Outcome]:
     """Turn by an angle, and undo what the robot leaned."""
-    yield from swing(robot, primitive.side.value * primitive.angle)
+    if primitive.angle == math.pi / 2:
+        yield from quarter(robot, primitive.side)
+    else:
+        yield from swing(robot, primitive.side.value * primitive.angle)
     robot.begin_leg()
     yield from settle(robot)
     return Outcome(0.0, Reason.DONE, robot.readings())

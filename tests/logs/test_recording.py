@@ -181,6 +181,19 @@ def test_a_replay_is_the_same_map_bit_for_bit(logged, body):
     assert (again.travelled, again.simulated) == (built.travelled, built.simulated)
 
 
+def test_a_replay_through_halls_is_the_same_map_bit_for_bit(tmp_path):
+    world = worlds.make("rooms", np.random.default_rng(3))
+    path = tmp_path / "run.mcap"
+    built = build_logged(world, np.random.default_rng(4), path)
+    recorded, _ = read_recorded(path)
+    again = replay_map(recorded)
+    assert recorded.about["halls"]
+    assert again.closed
+    assert again.map == built.map
+    assert (again.loops, again.recognitions) == (built.loops, built.recognitions)
+    assert (again.walls, again.reason) == (built.walls, built.reason)
+
+
 def broken_off(path, error):
     """Log a run that ends by an error."""
     world = worlds.make("l", np.random.default_rng(1))

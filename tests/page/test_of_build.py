@@ -200,3 +200,20 @@ def test_show_and_merge_write_pages(tmp_path, monkeypatch, capsys):
     capsys.readouterr()
     assert main([*merge, "ab.txt"]) == 2
     assert "ab.txt: suffix: expected .html" in capsys.readouterr().err
+
+
+def test_a_world_with_halls_is_shown_with_its_map_when_it_is_done():
+    world = worlds.make("rooms", np.random.default_rng(3))
+    built, run = record_build(world, np.random.default_rng(4), sigma=0.02)
+    (chart,) = run.maps
+    (state,) = chart.states
+    assert state.map is built.map
+    assert state.time == pytest.approx(run.end)
+    truth = true_maps(world, built.map.parameters)[0]
+    places = {v.id: v.position for v in built.map.vertices}
+    wanted = {v.id: v.position for v in truth.vertices}
+    mine, theirs = zip(*built.comparison.pairs, strict=True)
+    off = state.placement([places[k] for k in mine]) - [wanted[k] for k in theirs]
+    rmse = math.sqrt((off**2).sum(axis=1).mean())
+    assert rmse == pytest.approx(built.comparison.position_rmse)
+    assert dict(run.facts)["walls walked"] == str(built.walls)

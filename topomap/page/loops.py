@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from behaviours.vertices import VertexType
 from merge.rigid import RigidTransform
 from topomap.boundary import Walk
 from topomap.folding import fold
@@ -21,12 +22,14 @@ from topomap.page.tracks import (
 if TYPE_CHECKING:
     from behaviours.follow_wall import Leg
     from behaviours.parameters import Parameters
-    from behaviours.vertices import VertexType
     from evidence.walls import Decision
+    from topomap.mapping import Build
     from topomap.topological_map import TopologicalMap
 
-__all__ = ["Loop", "beliefs", "growth"]
+__all__ = ["HALLS", "Loop", "beliefs", "corner_type", "growth", "whole"]
 
+HALLS = frozenset({VertexType.PORTAL, VertexType.SPLIT, VertexType.TERM})
+"""Types of vertices that there are only where there are halls."""
 MAX_STATES = 250
 """A map is shown at so many moments of its growth, at most."""
 
@@ -41,6 +44,19 @@ class Loop:
     times: list[float] = field(default_factory=list)
     legs: list[Leg] = field(default_factory=list)
     decisions: list[Decision] = field(default_factory=list)
+
+
+def corner_type(kind: str) -> VertexType:
+    """Return the type of a corner; digits after it tell of halls that begin there."""
+    return VertexType(kind.rstrip("0123456789"))
+
+
+def whole(built: Build, time: float) -> MapTrack:
+    """Return the map of loops and halls, shown from a time on where it fits best."""
+    found = built.comparison
+    offset = found.offset or (built.start.x, built.start.y)
+    placement = RigidTransform(found.rotation or 0.0, *offset)
+    return MapTrack("map", (MapState(time, built.map, placement),))
 
 
 def growth(name: str, loop: Loop, parameters: Parameters, sigma: float) -> MapTrack:

@@ -9,15 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from behaviours.follow_wall import Leg
-from behaviours.vertices import VertexType
-from topomap.page.loops import Loop, beliefs, growth
+from topomap.page.loops import HALLS, Loop, beliefs, corner_type, growth, whole
 from topomap.page.motion import Motion, Placed, WatchedBody, ranges_along
 from topomap.page.recording import Recording
-from topomap.page.tracks import (
-    MapTrack,
-    Message,
-    RobotTrack,
-)
+from topomap.page.tracks import MapTrack, Message, RobotTrack
 from worlds.profile import Ranger
 
 if TYPE_CHECKING:
@@ -84,14 +79,14 @@ class BuildRecorder:
 
     def began(self, kind: str) -> None:
         """Note that a loop begins here, at its v_0."""
-        self._loops.append(Loop(VertexType(kind), self._body.pose))
+        self._loops.append(Loop(corner_type(kind), self._body.pose))
 
     def observed(self, wall: Wall, decision: Decision) -> None:
         """Note a wall that was walked, and what was made of it."""
         loop = self._loops[-1]
         loop.times.append(self._body.clock)
         loop.legs.append(
-            Leg(VertexType(wall.kind), wall.length, wall.shift, clearance=math.inf)
+            Leg(corner_type(wall.kind), wall.length, wall.shift, clearance=math.inf)
         )
         loop.decisions.append(decision)
 
@@ -107,7 +102,8 @@ class BuildRecorder:
         -------
         Recording
             Each map lies where the robot truly was at its v_0, so that the picture
-            shows how its errors grow and how closing the loop spreads them.
+            shows how its errors grow and how closing the loop spreads them. A map
+            with halls is shown when it is done, where it fits the truth best.
         """
         loops = [loop for loop in self._loops if loop.legs]
         return Recording(
@@ -126,6 +122,8 @@ class BuildRecorder:
 
     def _maps(self, loops: list[Loop], built: Build) -> tuple[MapTrack, ...]:
         """Return the map of each loop; of a single one, the last is what was built."""
+        if any(vertex.type in HALLS for vertex in built.map.vertices):
+            return (whole(built, self._body.clock),)
         tracks = [
             growth(f"map {k + 1}", loop, self._body.parameters, self._sigma)
             for k, loop in enumerate(loops)
@@ -242,7 +240,7 @@ def _facts(built: Build) -> tuple[tuple[str, str], ...]:
         ("verdict", verdict if built.closed else "not closed"),
         ("vertices", str(len(built.map.vertices))),
         ("way", f"{built.travelled:.1f} m"),
-        ("walls walked", str(len(built.walk.legs))),
+        ("walls walked", str(built.walls)),
         ("hypotheses", str(built.hypotheses)),
         ("collisions", str(built.collisions)),
     ]
