@@ -6,7 +6,15 @@ import math
 from collections.abc import Generator
 from typing import TypeAlias, TypeVar
 
-from behaviours.port import Approach, Direction, Move, Outcome, Reason, Sensor
+from behaviours.port import (
+    Approach,
+    Direction,
+    Move,
+    Outcome,
+    Readings,
+    Reason,
+    Sensor,
+)
 from worlds.robot import Robot
 
 __all__ = ["SURE", "Control", "approach", "go", "hold", "move", "settle", "stop"]
@@ -129,6 +137,10 @@ def approach(robot: Robot, primitive: Approach) -> Control[Outcome]:
     if forward and reason is not Reason.DONE and robot.ahead <= limit_ahead + 0.02:
         front = yield from keep_off(robot, limit_ahead)
     distance = max(way * (robot.odometer - start), 0.0)
+    if reason is Reason.SEEN and not aside:
+        # What was seen may be abeam of the rangers, ahead of the centre.
+        ahead = robot.eyes.front if front < 0 else front
+        return Outcome(distance, reason, Readings(ahead, robot.left, robot.right))
     return Outcome(distance, reason, robot.readings(front))
 
 
