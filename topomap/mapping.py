@@ -15,7 +15,7 @@ from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.embedding import embedded
 from topomap.errors import InputError, JobError
-from topomap.explore import explore_halls
+from topomap.exploring import explore_halls
 from topomap.folding import fold
 from topomap.truth import true_maps
 from worlds.fit import is_open

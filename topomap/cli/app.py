@@ -10,6 +10,7 @@ from topomap.cli.allocate import allocate
 from topomap.cli.build import build
 from topomap.cli.compare import compare
 from topomap.cli.demo import demo
+from topomap.cli.explore import explore
 from topomap.cli.explore_grid import explore_grid
 from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
@@ -31,6 +32,7 @@ app.command()(compare)
 app.command()(merge)
 app.command()(show)
 app.command()(allocate)
+app.command()(explore)
 app.command()(explore_grid)
 app.command()(reproduce)
 

@@ -25,7 +25,16 @@ if TYPE_CHECKING:
     from behaviours.port import Behaviour
     from behaviours.ways import Ways
 
-__all__ = ["Exploration", "explore_halls"]
+__all__ = [
+    "Exploration",
+    "close_loop",
+    "explore_halls",
+    "first_vertex",
+    "go",
+    "goto",
+    "is_open_loop",
+    "venture",
+]
 
 ERROR = 1e-3
 """A vertex is taken for another, or for a new one, when it is less likely wrong."""
@@ -88,22 +97,27 @@ def explore_halls(
         does not have there.
     """
     found = Exploration(parameters, closer, sigma, max_walls)
-    arrival = yield from _first_vertex(parameters)
-    found.here = found.chart.add_place(Place(arrival.type, arrival.ways))
-    found.heading = arrival.facing % 4
-    if _is_open_loop(found.chart, found.here):
-        yield from _close_loop(found)
+    yield from first_vertex(found)
     while found.closed and found.walls < max_walls:
         route = found.chart.nearest_unexplored(found.here)
         if route is None:
             return found
-        yield from _goto(found, route[0])
-        yield from _venture(found, route[1])
+        yield from goto(found, route[0])
+        yield from venture(found, route[1])
     found.closed = False
     return found
 
 
-def _first_vertex(parameters: Parameters) -> Behaviour[Arrival]:
+def first_vertex(found: Exploration) -> Behaviour[None]:
+    """Come to a first vertex, and close its base loop if it is on one."""
+    arrival = yield from _first_arrival(found.parameters)
+    found.here = found.chart.add_place(Place(arrival.type, arrival.ways))
+    found.heading = arrival.facing % 4
+    if is_open_loop(found.chart, found.here):
+        yield from close_loop(found)
+
+
+def _first_arrival(parameters: Parameters) -> Behaviour[Arrival]:
     """MTW and WF to the first vertex; HF where the robot finds itself in a hall."""
     outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
     width = outcome.readings.left + outcome.readings.right
@@ -131,7 +145,7 @@ def _leave(
     return Place(arrival.type, turned(arrival.ways, -quarters)), arrival
 
 
-def _go(found: Exploration, quarters: int) -> Behaviour[None]:
+def go(found: Exploration, quarters: int) -> Behaviour[None]:
     """GOTO: walk a known edge, and measure it once more."""
     places = found.chart.places
     link = found.chart.links[found.here, quarters]
@@ -147,7 +161,7 @@ def _go(found: Exploration, quarters: int) -> Behaviour[None]:
     found.here = there
 
 
-def _venture(found: Exploration, quarters: int) -> Behaviour[None]:
+def venture(found: Exploration, quarters: int) -> Behaviour[None]:
     """Take an unexplored exit, and find out where it leads."""
     there = yield from _step_out(found, quarters)
     yield from _identify(found, there)
@@ -184,12 +198,12 @@ def _identify(found: Exploration, vertex: int) -> Behaviour[None]:
         best, p = max(recognition.candidates, key=itemgetter(1), default=(None, 0.0))
         if p < 1 - ERROR and recognition.new < 1 - ERROR:
             step = _telling_way(chart, vertex, best)
-            if _is_open_loop(chart, vertex):
-                yield from _goto(found, vertex)
-                yield from _close_loop(found)
+            if is_open_loop(chart, vertex):
+                yield from goto(found, vertex)
+                yield from close_loop(found)
                 continue
             if step is not None:
-                yield from _goto(found, step[0])
+                yield from goto(found, step[0])
                 unsure.insert(-1, (yield from _step_out(found, step[1])))
                 continue
         unsure.pop()
@@ -197,22 +211,23 @@ def _identify(found: Exploration, vertex: int) -> Behaviour[None]:
             pairs = chart.pairs(vertex, best)
             chart.join(pairs)
             found.here = pairs.get(found.here, found.here)
-        elif _is_open_loop(chart, vertex):
-            yield from _goto(found, vertex)
-            yield from _close_loop(found)
+        elif is_open_loop(chart, vertex):
+            yield from goto(found, vertex)
+            yield from close_loop(found)
 
 
-def _goto(found: Exploration, vertex: int) -> Behaviour[None]:
+def goto(found: Exploration, vertex: int) -> Behaviour[None]:
     """GOTO: drive to a vertex by the shortest way in the map."""
     for _, quarters in found.chart.route(found.here, vertex):
-        yield from _go(found, quarters)
+        yield from go(found, quarters)
 
 
-def _is_open_loop(chart: Chart, vertex: int) -> bool:
+def is_open_loop(chart: Chart, vertex: int) -> bool:
     """Return whether a vertex is on a base loop that has not been walked."""
     ways = chart.places[vertex].ways
     return (
-        Way.WALL_RIGHT in ways and (vertex, ways.index(Way.WALL_RIGHT)) not in chart.links
+        Way.WALL_RIGHT in ways
+        and (vertex, ways.index(Way.WALL_RIGHT)) not in chart.links
     )
 
 
@@ -225,7 +240,7 @@ def _telling_way(chart: Chart, vertex: int, other: int) -> tuple[int, int] | Non
     return None
 
 
-def _close_loop(found: Exploration) -> Behaviour[None]:
+def close_loop(found: Exploration) -> Behaviour[None]:
     """Walk along the wall, the wall on the right, until the loop is closed."""
     places = [found.chart.places[found.here]]
     arrivals: list[Arrival] = []
