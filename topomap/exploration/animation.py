@@ -67,7 +67,7 @@ def animate(
             "scale", "", min(scale, frames), "scale and frames of at least 1"
         )
     shown = np.unique(np.linspace(0, len(run.trace) - 1, frames).round().astype(int))
-    colours = colours(run.trace.shape[1])
+    inks = colours(run.trace.shape[1])
     known = np.zeros(grid.shape, dtype=bool)
     pictures, last = [], 0
     for end in shown:
@@ -75,7 +75,7 @@ def animate(
             for row, column in cells:
                 known |= visible_cells(grid, (int(row), int(column)), reach)
         last = end + 1
-        pixels = _picture(grid, known, run.trace[: end + 1], colours)
+        pixels = _picture(grid, known, run.trace[: end + 1], inks)
         big = pixels.repeat(scale, axis=0).repeat(scale, axis=1)
         pictures.append(Image.fromarray(big))
     pictures[0].save(

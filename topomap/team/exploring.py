@@ -17,7 +17,7 @@ from topomap.mapping import MAX_SIGMA, MAX_WALLS
 from topomap.team.agent import Agent
 from topomap.team.channel import Channel, Radio
 from topomap.team.faults import Fault
-from topomap.team.frontiers import way_lengths
+from topomap.team.grid_adapter import grid_lengths
 from topomap.team.result import MergedMap, RobotRun, TeamRun
 from topomap.team.scheduling import Member, run_by_clocks
 from topomap.team.sharing import Knowledge, learn, report_of
@@ -137,7 +137,8 @@ def explore(
         )
         agent = _agent(k, found, air, team, fault)
         agent.allocator, agent.returns = allocator, returns
-        agent.costs = way_lengths
+        if target == "grid":
+            agent.costs = grid_lengths(parameters, sigma)
         team.append(Member(agent, placed, fault.comes, fault.dies))
     end = run_by_clocks(team, limit)
     return TeamRun(
