@@ -217,10 +217,14 @@ class PhysicalBody:
         late = self._arena.ticks - self._since > PATIENCE / self._arena.time_step
         return self._end(self._outcome(Reason.STUCK)) if late else None
 
-    def _end(self, outcome: Outcome) -> Outcome:
-        """Let go of the primitive."""
+    def halt(self) -> None:
+        """Drop the primitive, and stop the wheels."""
         self._control = None
         self._robot.drive(0.0, 0.0)
+
+    def _end(self, outcome: Outcome) -> Outcome:
+        """Let go of the primitive."""
+        self.halt()
         return outcome
 
     def _recoil(self) -> Control[Outcome]:

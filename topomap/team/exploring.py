@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from topomap.bodies import body_parameters, make_body
 from topomap.closers import make_closer
@@ -19,7 +19,7 @@ from topomap.team.channel import Channel, Radio
 from topomap.team.faults import Fault
 from topomap.team.grid_adapter import grid_lengths
 from topomap.team.result import MergedMap, RobotRun, TeamRun
-from topomap.team.scheduling import Member, run_by_clocks
+from topomap.team.scheduling import Member, run_by_clocks, run_in_arena
 from topomap.team.sharing import Knowledge, learn, report_of
 from topomap.team.starts import check_starts, choose_starts
 from topomap.truth import true_maps
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
     from behaviours.parameters import Parameters
     from topomap.topological_map import TopologicalMap
+    from worlds.ideal import IdealBody
+    from worlds.physical import PhysicalBody
     from worlds.pose import Pose
     from worlds.world import World
 
@@ -74,7 +76,8 @@ def explore(
     robots : int
         How many, from 1 to 64.
     body : str
-        As for `topomap.build_map`.
+        As for `topomap.build_map`. Physical robots share one clock and the walls, but
+        pass through each other.
     sigma : float
         Standard deviation of a measured length, as a part of the length.
     allocator : str
@@ -129,9 +132,19 @@ def explore(
     air = Channel(radio or Radio(), world, robots, air_rng)
     fault_of = {fault.robot: fault for fault in faults}
     team: list[Member] = []
+    arena = None
+    if body != "ideal":
+        from worlds.arena import Arena
+
+        arena = Arena(world, ghosts=True)
     for k, (start, own) in enumerate(zip(starts, body_rng.spawn(robots), strict=True)):
         fault = fault_of.get(k, Fault(k))
-        placed = make_body(body, world, start, own, sigma=sigma, parameters=parameters)
+        placed = make_body(
+            *(body, world, start, own),
+            sigma=sigma,
+            parameters=parameters,
+            arena=arena,
+        )
         found = Exploration(
             parameters, make_closer(closing, sigma, parameters), sigma, MAX_WALLS
         )
@@ -139,8 +152,16 @@ def explore(
         agent.allocator, agent.returns = allocator, returns
         if target == "grid":
             agent.costs = grid_lengths(parameters, sigma)
-        team.append(Member(agent, placed, fault.comes, fault.dies))
-    end = run_by_clocks(team, limit)
+        team.append(
+            Member(
+                agent, cast("IdealBody | PhysicalBody", placed), fault.comes, fault.dies
+            )
+        )
+    end = (
+        run_by_clocks(team, limit)
+        if arena is None
+        else run_in_arena(team, arena, limit)
+    )
     return TeamRun(
         tuple(
             _robot_run(member, start, truth)

@@ -1,28 +1,26 @@
-"""In which order robots act that have a clock each."""
+"""In which order robots act: by their own clocks, or in one arena tick by tick."""
 
 from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
 from topomap.team.agent import Agent, Task, Wait, explore_with_others
+from worlds.physical import PhysicalBody
 
 if TYPE_CHECKING:
-    from behaviours.port import Body, Outcome
+    from behaviours.port import Outcome
+    from worlds.arena import Arena
+    from worlds.ideal import IdealBody
 
-__all__ = ["Member", "Placed", "run_by_clocks"]
+MARKED = 10
+"""Ticks of an arena between two points of a trail."""
 
-
-class Placed(Protocol):
-    """A body of which it is known where it is, in the simulation."""
-
-    @property
-    def pose(self) -> tuple[float, float, float]:
-        """True x and y, in metres, and heading, in radians."""
+__all__ = ["Member", "run_by_clocks", "run_in_arena"]
 
 
 @dataclass(slots=True)
@@ -30,7 +28,7 @@ class Member:
     """A robot of a simulated team: mind, body, and what happens to it."""
 
     agent: Agent
-    body: Body
+    body: IdealBody | PhysicalBody
     comes: float = 0.0
     """When it is set down, in seconds."""
     dies: float = float("inf")
@@ -44,6 +42,11 @@ class Member:
     def is_out(self) -> bool:
         """Whether it broke down or gave up."""
         return bool(self.lost)
+
+    def mark(self, time: float) -> None:
+        """Note where it is."""
+        x, y, _ = self.body.pose
+        self.trail.append((time, x, y))
 
     def at(self, time: float) -> tuple[float, float] | None:
         """Return where it is, in metres; None before it comes and once it is out."""
@@ -83,8 +86,7 @@ def run_by_clocks(team: Sequence[Member], limit: float) -> float:
     queue = [(member.comes, k) for k, member in enumerate(team)]
     heapq.heapify(queue)
     for member in team:
-        x, y, _ = member.body.pose  # type: ignore[attr-defined]
-        member.trail.append((member.comes, x, y))
+        member.mark(member.comes)
     while queue:
         now, k = heapq.heappop(queue)
         member = team[k]
@@ -96,9 +98,80 @@ def run_by_clocks(team: Sequence[Member], limit: float) -> float:
         took = _act(member, tasks[k], answers, k, now)
         if not member.is_out:
             heapq.heappush(queue, (now + took, k))
-        living = [other for other in team if not other.is_out]
-        if all(other.agent.is_done for other in living):
+        if _is_over(team):
             break
+    return _end(team)
+
+
+def run_in_arena(team: Sequence[Member], arena: Arena, limit: float) -> float:
+    """Let physical bodies act in one arena, until all are done.
+
+    Parameters
+    ----------
+    team : sequence of Member
+        All their bodies are in the arena.
+    arena : Arena
+        Steps once all that have something to decide have decided.
+    limit : float
+        Give up after so many seconds.
+
+    Returns
+    -------
+    float
+        When the last robot was done, or the limit.
+    """
+    tasks = [explore_with_others(member.agent) for member in team]
+    bodies = [m.body for m in team if isinstance(m.body, PhysicalBody)]
+    rests = [member.comes for member in team]
+    is_busy = [False] * len(team)
+    while arena.clock <= limit:
+        for k, (member, body) in enumerate(zip(team, bodies, strict=True)):
+            if not member.is_out and arena.clock >= member.dies:
+                member.lost = f"broke down after {arena.clock:.0f} s"
+                body.halt()
+            while not member.is_out and arena.clock >= rests[k]:
+                outcome = body.poll() if is_busy[k] else None
+                if is_busy[k] and outcome is None:
+                    break
+                wait = _decide(member, body, tasks[k], outcome, arena.clock)
+                is_busy[k] = wait == 0
+                rests[k] = arena.clock + wait
+        if arena.ticks % MARKED == 0:
+            for member in team:
+                if not member.is_out:
+                    member.mark(arena.clock)
+        if _is_over(team):
+            return _end(team)
+        arena.step()
+    return limit
+
+
+def _decide(
+    member: Member,
+    body: PhysicalBody,
+    task: Task,
+    outcome: Outcome | None,
+    now: float,
+) -> float:
+    """Let one robot think and take up its next primitive; return how long it waits."""
+    member.agent.now = now
+    try:
+        wish = next(task) if outcome is None else task.send(outcome)
+    except (JobError, UnforeseenError) as error:
+        member.lost = str(error)
+        return 0.0
+    if isinstance(wish, Wait):
+        return wish.seconds
+    body.begin(wish)
+    return 0.0
+
+
+def _is_over(team: Sequence[Member]) -> bool:
+    return all(member.is_out or member.agent.is_done for member in team)
+
+
+def _end(team: Sequence[Member]) -> float:
+    """Return when the last robot was done."""
     return max((m.agent.done_at for m in team if m.agent.is_done), default=0.0)
 
 
@@ -119,6 +192,5 @@ def _act(
         member.lost = str(error)
         return 0.0
     took = body.clock - before
-    x, y, _ = body.pose  # type: ignore[attr-defined]
-    member.trail.append((now + took, x, y))
+    member.mark(now + took)
     return took
