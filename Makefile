@@ -6,7 +6,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
-.PHONY: help demo test lint types docs pictures bench clean
+.PHONY: help demo test lint types docs pictures bench dist clean
 
 help: ## list the targets
 	@grep -E '^[a-z]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 12
@@ -27,11 +27,20 @@ types: $(VENV)/.developer ## static types, strict
 docs: $(VENV)/.developer ## the documentation, into site/
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
-pictures: $(VENV)/.developer ## draw the pictures that README shows anew
+pictures: $(VENV)/.developer ## draw the committed pictures anew; needs chromium
 	$(BIN)/python docs/figures.py docs/pictures
+	$(BIN)/python docs/screenshot.py docs/pictures
 
 bench: $(VENV)/.developer ## benchmarks, as ratios to a named rival
 	$(BIN)/python -m pytest -o addopts= --import-mode=importlib --benchmark-only tests/benchmarks
+
+dist: $(VENV)/.developer ## wheel and sdist, checked, and the wheel tried in a bare environment
+	rm -rf build dist
+	$(BIN)/python -m build >dist.log || { cat dist.log; exit 1; }
+	$(BIN)/twine check --strict dist/*
+	$(BIN)/check-wheel-contents dist/*.whl
+	bash tests/installed.sh dist/*.whl $(BIN)/python
+	rm -rf build dist.log
 
 clean: ## remove all that these targets made, .venv too
 	rm -rf $(VENV) demo site results build dist *.egg-info .benchmarks

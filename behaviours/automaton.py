@@ -166,12 +166,8 @@ def perform(
     state = start
     while state not in automaton.ends:
         action = actions[state]
-        if callable(action):
-            action = action(done)
-        if isinstance(action, Generator):
-            result = yield from action
-        else:
-            result = yield action
+        now = action(done) if callable(action) else action
+        result = (yield from now) if isinstance(now, Generator) else (yield now)
         done.append((state, result))
         state = automaton.step(state, result)
     return [*done, (state, done[-1][1])]

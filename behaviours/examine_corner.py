@@ -32,7 +32,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import done
 from behaviours.port import Behaviour, Direction, Move, Side, Turn
 from behaviours.probe import probe
@@ -119,7 +119,7 @@ def examine_corner(parameters: Parameters, side: Side) -> Behaviour[State]:
     def across(_: Path[State]) -> Behaviour[Openings]:
         return probe(parameters, side, closer, behind=parameters.r0 - closer)
 
-    actions = {
+    actions: Actions[State] = {
         State.PROBE: along,
         State.T: Turn(side.opposite),
         State.MB: Move(closer, Direction.BACKWARD),

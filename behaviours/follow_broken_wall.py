@@ -51,8 +51,7 @@ import math
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Any
 
-from behaviours import examine_corner as corner
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import (
     blocked,
     bumped,
@@ -62,6 +61,8 @@ from behaviours.conditions import (
     seen,
     stepped,
 )
+from behaviours.examine_corner import State as Corner
+from behaviours.examine_corner import examine_corner
 from behaviours.explore_opening import Opening, explore_opening
 from behaviours.port import (
     Align,
@@ -129,19 +130,19 @@ def slit_and_flush(opening: Opening) -> bool:
     return opening.type is VertexType.ILL and opening.is_flush
 
 
-def along(found: corner.State) -> bool:
+def along(found: Corner) -> bool:
     """A hall begins in the followed wall."""
-    return found is corner.State.ALONG
+    return found is Corner.ALONG
 
 
-def across(found: corner.State) -> bool:
+def across(found: Corner) -> bool:
     """A hall begins in the wall ahead."""
-    return found is corner.State.ACROSS
+    return found is Corner.ACROSS
 
 
-def no_hall(found: corner.State) -> bool:
+def no_hall(found: Corner) -> bool:
     """No hall begins at the corner."""
-    return found is corner.State.NONE
+    return found is Corner.NONE
 
 
 # fmt: off
@@ -231,10 +232,10 @@ def follow_broken_wall(
     def to_the_edge(path: Path[State]) -> Move:
         return _back(path[-1][1].distance)
 
-    def examine(_: Path[State]) -> Behaviour[corner.State]:
-        return corner.examine_corner(parameters, side)
+    def examine(_: Path[State]) -> Behaviour[Corner]:
+        return examine_corner(parameters, side)
 
-    actions = {
+    actions: Actions[State] = {
         State.MF_BESIDE: Move(r0, keep=r0),
         State.AF_BESIDE: Approach(
             (Sensor.of_side(side),), parameters.r_max, keep=r0, limit=2 * r0

@@ -37,7 +37,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import blocked, bumped, done, narrowed, stepped, widened
 from behaviours.hall_opening import Junction, hall_opening
 from behaviours.port import (
@@ -52,7 +52,7 @@ from behaviours.port import (
     Until,
 )
 from behaviours.vertices import VertexType
-from behaviours.ways import Arrival, Way
+from behaviours.ways import Arrival, Way, Ways
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
@@ -135,7 +135,7 @@ def follow_hall(parameters: Parameters) -> Behaviour[Arrival]:
         side = Side.LEFT if readings.left > readings.right else Side.RIGHT
         return hall_opening(parameters, side)
 
-    actions = {
+    actions: Actions[State] = {
         State.CN: Centre(),
         State.FM: Follow(Guide.HALL),
         State.HFO: open_up,
@@ -150,20 +150,23 @@ def follow_hall(parameters: Parameters) -> Behaviour[Arrival]:
     path = yield from perform(FOLLOW_HALL, actions, State.CN)
     *done_, (end, last) = path
     outcomes = [result for _, result in done_ if isinstance(result, Outcome)]
-    hall = Way.HALL
-    ways = {
-        State.SPLIT: lambda at: (
-            hall if at.ahead else None,
-            hall if at.left else None,
-            hall,
-            hall if at.right else None,
-        ),
-        State.PORTAL: lambda _: (Way.OUT, None, hall, None),
-        State.TERM: lambda _: (None, None, hall, None),
-    }[end](last)
     return Arrival(
         VertexType[end.name],
-        ways,
+        _ways(end, last),
         length=sum(result.distance for _, result in done_),
         shift=sum(outcome.shift for outcome in outcomes),
+    )
+
+
+def _ways(end: State, last: Junction | Outcome) -> Ways:
+    hall = Way.HALL
+    if end is State.PORTAL:
+        return Way.OUT, None, hall, None
+    if end is State.TERM or isinstance(last, Outcome):
+        return None, None, hall, None
+    return (
+        hall if last.ahead else None,
+        hall if last.left else None,
+        hall,
+        hall if last.right else None,
     )

@@ -47,7 +47,7 @@ References
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import Enum, auto
 from functools import cache
@@ -55,7 +55,7 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
 from behaviours.conditions import blocked, bumped, done, narrowed, receded, stepped
-from behaviours.port import Align, Behaviour, Follow, Move, Side, Turn
+from behaviours.port import Align, Behaviour, Follow, Move, Outcome, Side, Turn
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -122,6 +122,8 @@ class Leg:
     """Way to the left at ill-defined corners, in metres, by the sensors."""
     clearance: float
     """Least range on the left on the way, in metres; `inf` if nothing was seen."""
+    widths: tuple[tuple[float, float], ...] = ()
+    """Pieces of the way: where each ends, and the least range on the left along it."""
 
 
 @cache
@@ -165,4 +167,14 @@ def follow_wall(parameters: Parameters, corner: VertexType | None) -> Behaviour[
         length=sum(outcome.distance for _, outcome in done_),
         shift=sum(outcome.shift for _, outcome in done_),
         clearance=min((outcome.clearance for _, outcome in done_), default=math.inf),
+        widths=_widths(outcome for _, outcome in done_),
     )
+
+
+def _widths(outcomes: Iterable[Outcome]) -> tuple[tuple[float, float], ...]:
+    """Return the pieces of a whole leg."""
+    way, found = 0.0, []
+    for outcome in outcomes:
+        found += [(way + piece.until, piece.left) for piece in outcome.swept]
+        way += outcome.distance
+    return tuple(found)

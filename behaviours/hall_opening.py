@@ -34,7 +34,7 @@ from dataclasses import dataclass
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Any
 
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import done
 from behaviours.explore_opening import Opening, explore_opening
 from behaviours.opposite import opposite, probed
@@ -126,7 +126,7 @@ def hall_opening(parameters: Parameters, side: Side) -> Behaviour[Junction]:
         is_open = reading > parameters.r_max
         return opposite(parameters, side, path[0][1].width if is_open else 0.0)
 
-    actions = {
+    actions: Actions[State] = {
         State.EXO: open_up,
         State.MB_MIDDLE: to_the_middle,
         State.MB_EDGE: to_the_edge,

@@ -26,7 +26,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import done
 from behaviours.port import Align, Behaviour, Move, Outcome, Side
 from behaviours.vertices import VertexType
@@ -101,7 +101,7 @@ def leave_hall(parameters: Parameters) -> Behaviour[Arrival]:
             return Side.RIGHT, outcome
         return (Side.LEFT if outcome.readings.left < near else None), outcome
 
-    actions = {
+    actions: Actions[State] = {
         State.MF: out,
         State.AL_LEFT: Align(Side.LEFT),
         State.AL_RIGHT: Align(Side.RIGHT),

@@ -29,7 +29,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import done
 from behaviours.port import Behaviour, Direction, Move, Side
 from behaviours.probe import probe
@@ -96,7 +96,7 @@ def opposite(
     def look(_: Path[State]) -> Behaviour[tuple[tuple[float, Opening], ...]]:
         return probe(parameters, side.opposite, width)
 
-    actions = {
+    actions: Actions[State] = {
         State.MB: Move(width / 2, Direction.BACKWARD, by_odometry=True),
         State.PROBE: look,
         State.MF: Move(width / 2, by_odometry=True),

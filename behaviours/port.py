@@ -20,7 +20,7 @@ import math
 from collections.abc import Generator
 from dataclasses import dataclass
 from enum import Enum
-from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias, TypeVar
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
@@ -41,6 +41,7 @@ __all__ = [
     "Reason",
     "Sensor",
     "Side",
+    "Swept",
     "Turn",
     "Until",
     "run",
@@ -178,9 +179,11 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """Turn on the spot by 90 degrees: T{L,R}. Ends DONE."""
+    """Turn on the spot, by 90 degrees unless asked otherwise: T{L,R}. Ends DONE."""
 
     side: Side
+    angle: float = math.pi / 2
+    """In radians, from 0 to pi."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -227,6 +230,17 @@ class Follow:
 Primitive: TypeAlias = Approach | Move | Turn | Align | Centre | Follow
 
 
+class Swept(NamedTuple):
+    """A piece of a straight way, and the least ranges to both sides along it."""
+
+    until: float
+    """Where it ends, by odometry from the primitive's start, in metres."""
+    left: float
+    """Least range to the left, in metres from the centre; `inf` if nothing was seen."""
+    right: float
+    """Least range to the right."""
+
+
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """What a primitive came to."""
@@ -245,6 +259,8 @@ class Outcome:
     """Way to the left by the sensors, in metres (negative: to the right)."""
     clearance: float = math.inf
     """Least range on the side away from the followed wall on the way, in metres."""
+    swept: tuple[Swept, ...] = ()
+    """What the side sensors saw, piece after piece of the way forward."""
 
 
 Behaviour: TypeAlias = Generator[Primitive, Outcome, T]

@@ -29,7 +29,7 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING, Any
 
-from behaviours.automaton import Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, perform
 from behaviours.conditions import blocked, done, receded
 from behaviours.explore_opening import Opening, explore_opening
 from behaviours.port import Approach, Behaviour, Direction, Move, Sensor, Side, Until
@@ -125,7 +125,7 @@ def probe(
     def back(path: Path[State]) -> Move:
         return Move(_gone(path), Direction.BACKWARD, by_odometry=True)
 
-    actions = {State.AF: look, State.EXO: open_up, State.MB: back}
+    actions: Actions[State] = {State.AF: look, State.EXO: open_up, State.MB: back}
     path = yield from perform(PROBE, actions, State.AF)
     return tuple(
         (_gone(path[:k]), result)

@@ -7,6 +7,8 @@ otherwise the robot follows it eastward, the wall on its right.
 
 from __future__ import annotations
 
+import math
+
 from behaviours.parameters import Parameters
 from behaviours.port import (
     Align,
@@ -121,6 +123,22 @@ def _straight_on(p: Parameters) -> list[Situation]:
             middle,
             *[Step(Turn(Side.RIGHT), Reason.DONE, 0.0)] * 4,
             Step(Approach(front, r), Reason.SEEN, 5 * r),
+        ),
+        stand(
+            "turn right about",
+            middle,
+            Step(Turn(Side.RIGHT, math.pi), Reason.DONE, 0.0),
+            Step(Approach(front, r), Reason.SEEN, 5 * r, front=r),
+        ),
+        stand(
+            "go round a triangle",
+            middle,
+            *[
+                Step(Turn(Side.LEFT, 2 * math.pi / 3), Reason.DONE, 0.0),
+                Step(Move(2 * r), Reason.DONE, 2 * r),
+            ]
+            * 3,
+            Step(Approach(front, r), Reason.SEEN, 5 * r, front=r),
         ),
         *(
             stand(

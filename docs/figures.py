@@ -24,8 +24,10 @@ from behaviours import Parameters, run
 from topomap.boundary import map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
+from topomap.drawing import draw_world
 from topomap.folding import fold
 from topomap.map_drawing import draw_map
+from topomap.mapping import build_map
 from topomap.truth import true_map, true_maps
 from worlds.ideal import IdealBody
 from worlds.pose import Pose
@@ -111,6 +113,23 @@ def kinds() -> Figure:
     return figure
 
 
+def office() -> Figure:
+    """Draw the map of an office of rooms and halls over its walls."""
+    world = worlds.make("office", np.random.default_rng(3))
+    built = build_map(world, np.random.default_rng(1))
+    found = built.comparison
+    figure = Figure(figsize=(9, 6), layout="constrained")
+    ax = figure.add_subplot()
+    draw_world(world, ax)
+    draw_map(
+        built.map,
+        ax,
+        rotation=found.rotation or 0.0,
+        offset=found.offset or (0.0, 0.0),
+    )
+    return figure
+
+
 def floors() -> Figure:
     """Draw worlds with halls."""
     shown = ("office", "hospital", "rooms", "halls", "maze")
@@ -135,6 +154,33 @@ PILLARS = make_world(
     name="pillars",
 )
 
+HALL = make_world(
+    [(0, 0), (10, 0), (10, 5), (12, 5), (12, 9), (3, 9), (3, 7), (0, 7)],
+    [
+        [(2.5, 2.5), (4.5, 2.5), (4.5, 4), (2.5, 4)],
+        [(6.5, 4), (8, 4), (8, 6.5), (7.2, 6.5), (7.2, 5), (6.5, 5)],
+    ],
+    name="hall",
+)
+
+
+def incursions(world: World, sigma: float, seed: int) -> Figure:
+    """Draw an improved map over the walls of its world."""
+    rng = np.random.default_rng(seed)
+    built = build_map(world, rng, sigma=sigma, improve="active")
+    found = built.comparison
+    figure, ax = _axes(world)
+    turn, offset = found.rotation or 0.0, found.offset or (0.0, 0.0)
+    draw_map(built.map, ax, rotation=turn, offset=offset, ellipses=sigma > 0)
+    verdict = "correct" if built.correct else "not correct"
+    ax.set_title(
+        f"{built.improvement.islands} islands found, lengths known to {sigma:.0%}; "
+        f"{verdict}",
+        fontsize=9,
+    )
+    return figure
+
+
 FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
     "map": (
         "A flat, mapped by a robot that follows its walls at 0.3 m and whose lengths "
@@ -151,10 +197,22 @@ FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
         "What every map is held to: the true map of each ring, from geometry alone.",
         lambda: truth(PILLARS),
     ),
+    "office": (
+        "Eight rooms along a hall, mapped by a robot whose lengths are off by 6 %: "
+        "SPLITs where halls begin and meet, PORTALs where they open.",
+        office,
+    ),
     "floors": (
         "Worlds with halls, 43 to 57 cm wide: a robot that sees no farther than half "
         "a metre finds them by their openings.",
         floors,
+    ),
+    "incursions": (
+        "A hall that one robot has walked round and then crossed: the ways along "
+        "walls, the islands that it met (brown), incursions through space that its "
+        "sensors had swept (blue) and those that it drove (dark green), over known "
+        "space (light green). Exact lengths.",
+        lambda: incursions(HALL, 0.0, 4),
     ),
     "kinds": ("One world of each kind, as `world make` draws them.", kinds),
 }

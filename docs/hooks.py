@@ -20,6 +20,7 @@ from markdown import Extension
 from markdown.inlinepatterns import InlineProcessor
 from markdown.preprocessors import Preprocessor
 from mkdocs.structure.files import File
+from notebooks import executed, page_of
 
 import worlds
 from topomap.cli.app import app
@@ -55,12 +56,19 @@ def reference() -> Iterator[tuple[str, str | bytes]]:
         yield f"reference/{room}.md", "\n".join(lines)
 
 
+SCREENSHOT = (
+    "A page that replays a run, in a browser: the map, what the robot sees, and how "
+    "sure it is of having come round. `build --page` makes it."
+)
+
+
 def gallery() -> Iterator[tuple[str, str | bytes]]:
     """Yield the gallery and its pictures."""
     lines = ["# Gallery", "", "Drawn by the program when this page was built.", ""]
     for name, (caption, draw) in FIGURES.items():
         yield f"gallery/{name}.svg", render(draw(), "svg")
         lines += [f"![{caption}]({name}.svg)", "", caption, ""]
+    lines += [f"![{SCREENSHOT}](../pictures/page.png)", "", SCREENSHOT, ""]
     yield "gallery/index.md", "\n".join(lines)
 
 
@@ -80,10 +88,17 @@ def automata_page() -> Iterator[tuple[str, str | bytes]]:
     yield "automata/index.md", "\n".join(lines)
 
 
+def notebooks() -> Iterator[tuple[str, str | bytes]]:
+    """Yield the page of each notebook, executed."""
+    for path in sorted(Path(__file__).parent.glob("*.ipynb")):
+        yield from page_of(executed(path, ROOT), path.stem)
+
+
 GENERATORS: tuple[Callable[[], Iterator[tuple[str, str | bytes]]], ...] = (
     reference,
     gallery,
     automata_page,
+    notebooks,
 )
 
 

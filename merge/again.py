@@ -50,7 +50,9 @@ def match_again(before: Remembered, a: Graph, b: Graph) -> Remembered:
 
     Old hypotheses are grown anew from one of their pairs: they get larger, or meet a
     contradiction and go. New ones start at pairs of which a vertex changed, or lies
-    within two edges of one that did. The result is that of matching from scratch.
+    within two edges of one that did; further where there are vertices that are not
+    seen whole, as none of them starts to grow. The result is that of matching from
+    scratch.
 
     Parameters
     ----------
@@ -88,7 +90,11 @@ def match_again(before: Remembered, a: Graph, b: Graph) -> Remembered:
     if options.tolerate_rim:
         found = grow_hypotheses(*layouts, options)
     else:
-        touched = _changed(before.a, a, layouts[0]), _changed(before.b, b, layouts[1])
+        partial = sum(int((~layout.complete).sum()) for layout in layouts)
+        touched = (
+            _changed(before.a, a, layouts[0], 2 + partial),
+            _changed(before.b, b, layouts[1], 2 + partial),
+        )
         found = grow_hypotheses(
             *layouts, options, touched=touched, seeds=_seeds(before.match.hypotheses)
         )
@@ -101,8 +107,8 @@ def _seeds(hypotheses: Hypotheses) -> NDArray[np.int64]:
     return np.column_stack([hypotheses.a, hypotheses.b])
 
 
-def _changed(old: Graph, new: Graph, layout: Layout) -> Flags:
-    """Mark what changed and all within two edges of it."""
+def _changed(old: Graph, new: Graph, layout: Layout, edges: int) -> Flags:
+    """Mark what changed and all within so many edges of it."""
     if len(new) < len(old):
         raise ValueError(
             f"the map has {len(new)} vertices, fewer than the {len(old)} before"
@@ -111,9 +117,12 @@ def _changed(old: Graph, new: Graph, layout: Layout) -> Flags:
     was, now = _facts(old), _facts(new)
     marks[: len(old)] = [was[v] != now[v] for v in range(len(old))]
     seen = layout.twin >= 0
-    for _ in range(2):
+    for _ in range(edges):
+        before = int(marks.sum())
         near = layout.owner[seen][marks[layout.owner[layout.twin[seen]]]]
         marks[near] = True
+        if marks.sum() == before:
+            break
     return marks
 
 

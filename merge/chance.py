@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
-__all__ = ["false_merge_probability"]
+import numpy as np
+from numpy.typing import ArrayLike
 
+__all__ = ["by_luck", "false_merge_probability"]
+
+LUCK = 2.0
+"""Differences of two scores up to so many standard deviations say nothing."""
 LEAST = 1e-9
 """No model of what buildings look like is sure to more digits."""
 
@@ -48,3 +54,23 @@ def false_merge_probability(
     against = math.exp(min(math.log(trials) - score, 700.0))
     against += sum(math.exp(min(other - score, 700.0)) for other in rivals)
     return max(against / (1.0 + against), LEAST)
+
+
+def by_luck(sizes: ArrayLike) -> Any:
+    """Return how much better than another a match may score by luck alone.
+
+    Equal rooms have equal lengths, and which of them fits a third measurement better
+    is chance: each edge adds half the square of a normal deviate, so the scores of
+    two matches of n vertices differ by the root of n - 1 in the standard deviation.
+
+    Parameters
+    ----------
+    sizes : array_like of int
+        Vertices of the matches, at least 1.
+
+    Returns
+    -------
+    ndarray
+        In nats: `LUCK` standard deviations.
+    """
+    return LUCK * np.sqrt(np.asarray(sizes) - 1.0)

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from merge.linking import connected_parts
+from merge.nearest import within
+
 if TYPE_CHECKING:
     from merge.rigid import RigidTransform
 
@@ -110,10 +113,6 @@ def cluster_transforms(transforms: ArrayLike, points: ArrayLike, reach: float) -
     >>> cluster_transforms(turns, [(-100, 0), (100, 0)], reach=0.5)
     array([0, 1])
     """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-    from scipy.spatial import cKDTree
-
     t, at = np.asarray(transforms, float), np.asarray(points, float)
     if len(t) < 2:
         return np.zeros(len(t), np.int64)
@@ -128,12 +127,8 @@ def cluster_transforms(transforms: ArrayLike, points: ArrayLike, reach: float) -
             radius * s,
         ]
     )
-    near = cKDTree(place).query_pairs(reach, output_type="ndarray")
-    links = coo_array(
-        (np.ones(len(near)), (near[:, 0], near[:, 1])), shape=(len(t), len(t))
-    )
-    _, part = connected_components(links, directed=False)
-    label = part.astype(np.int64) * len(t)
+    part = connected_parts(len(t), within(place, reach))
+    label = part * len(t)
     order = np.argsort(part, kind="stable")
     for rows in np.split(order, np.flatnonzero(np.diff(part[order])) + 1):
         if len(rows) > 2:  # Two that are linked are one cluster.

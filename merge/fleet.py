@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from merge.consistency import Overlay, most_consistent
 from merge.embedding import embed
 from merge.graph import Graph, GraphError
 from merge.joining import join
@@ -75,9 +76,9 @@ def merge_fleet(
 ) -> Fleet:
     """Merge the maps of many robots, none of which knows where it started.
 
-    All pairs are matched; of the accepted overlays those that agree with each other
-    around every cycle are kept, surest first; what hangs together becomes one map,
-    embedded at once.
+    All pairs are matched; of the accepted overlays that agree with each other around
+    every cycle those are kept that together are surest; what hangs together
+    becomes one map, embedded at once.
 
     Parameters
     ----------
@@ -113,11 +114,13 @@ def merge_fleet(
         (i, j) if names[i] <= names[j] else (j, i)
         for i, j in itertools.combinations(range(len(graphs)), 2)
     ]
+    at = [embed(g) if g.positions is None else g.positions for g in graphs]
+    placed = [replace(g, positions=p) for g, p in zip(graphs, at, strict=True)]
     found = list(
         mapper(
             partial(_match, options=options),
-            [graphs[i] for i, _ in couples],
-            [graphs[j] for _, j in couples],
+            [placed[i] for i, _ in couples],
+            [placed[j] for _, j in couples],
         )
     )
     order = sorted(
@@ -129,10 +132,10 @@ def merge_fleet(
             names[couples[k][1]],
         ),
     )
-    at = [embed(g) if g.positions is None else g.positions for g in graphs]
     places = Places([len(graph) for graph in graphs], at, _slack(graphs))
     links: dict[int, Link] = {}
-    for k in order:
+    agreeing = _agreeing(couples, found, order, at, _slack(graphs))
+    for k in sorted(order, key=lambda k: k not in agreeing):
         reason = found[k].reason
         if not reason:
             reason = places.add(*couples[k], found[k].pairs, found[k].transform)
@@ -140,6 +143,26 @@ def merge_fleet(
     groups = [_group(graphs, at, places, rows) for rows in places.groups()]
     groups.sort(key=lambda group: (-len(group.members), group.members))
     return Fleet(tuple(groups), tuple(links[k] for k in range(len(couples))))
+
+
+def _agreeing(
+    couples: Sequence[tuple[int, int]],
+    found: Sequence[Match],
+    order: Sequence[int],
+    at: Sequence[Floats],
+    slack: float,
+) -> set[int]:
+    """Return the accepted overlays that agree with each other best."""
+    sure = [k for k in order if found[k].accepted]
+    overlays = [
+        Overlay(
+            *couples[k],
+            found[k].transform or RigidTransform(),
+            -math.log(found[k].false_merge_probability),
+        )
+        for k in sure
+    ]
+    return {sure[k] for k in most_consistent(overlays, at, slack)}
 
 
 def _match(a: Graph, b: Graph, options: Options) -> Match:

@@ -20,6 +20,9 @@ Ints = NDArray[np.int64]
 
 UNIT = 2.0**-20
 """Scores are added as whole numbers of this, so that the order cannot matter."""
+SQUARE_ENOUGH, UNLIKE = 0.05, 0.6
+"""Between these angular errors, in radians, views of rectilinear maps are equal just
+where their vertices correspond."""
 PRIOR = 5.0
 """How many views the average over all vertices counts for beside the seen ones."""
 
@@ -103,7 +106,12 @@ def grow_hypotheses(
     .. [K] S. Kadi, "Exploration multi-robots dans des environnements partiellement
        connus", Université de Constantine, 2009.
     """
-    from merge.kernel import grow_all
+    if options.compiled:
+        from merge.compiled import compiled_grow_all
+
+        grow_all = compiled_grow_all()
+    else:
+        from merge.kernel import grow_all
 
     signatures = sign(a, b)
     width = int(max(signatures.a.max(initial=0), signatures.b.max(initial=0))) + 1
@@ -116,7 +124,7 @@ def grow_hypotheses(
     )
     rank_a = np.lexsort((entries_a[:, 0], keys_a))
     rank_b = np.lexsort((low, keys_b))
-    gain_a, gain_b = _gains(a, b, signatures.a, signatures.b, width)
+    gains = _gains(a, b, signatures.a, signatures.b, width)
     if touched is None:
         only_a, only_b = np.ones(len(a.types), bool), np.ones(len(b.types), bool)
     else:
@@ -125,12 +133,16 @@ def grow_hypotheses(
         known = np.zeros(0, np.int64)
     else:
         known = np.unique(seeds[:, 0] * len(b.types) + seeds[:, 1])
-    first, darts_a, darts_b, score, edges, against, tried = grow_all(
-        *(a, b, keys_a[rank_a], entries_a[rank_a]),
-        *(keys_b[rank_b], one[rank_b], rows[rank_b], gain_a, gain_b),
+    quick = signatures.rectilinear and SQUARE_ENOUGH < options.angle < UNLIKE
+    exact = quick and not options.doors and bool(a.complete.all() & b.complete.all())
+    pairs, told, tried = grow_all(
+        *(a, b, (signatures.a, signatures.b), keys_a[rank_a], entries_a[rank_a]),
+        *(keys_b[rank_b], one[rank_b], rows[rank_b], gains),
         *(options.angle, options.most, int(options.doors), options.tolerate_rim),
-        *(options.least, only_a, only_b, known),
+        *((quick, exact), options.least, only_a, only_b, known),
     )
+    (darts_a, darts_b), (ends, score, edges, against) = pairs, told
+    first = np.concatenate([[0], ends])
     # The same hypotheses come in the same order, wherever growth began.
     sizes = np.diff(first)
     group = np.repeat(np.arange(len(sizes)), sizes)

@@ -1,107 +1,128 @@
-"""Which parts of two maps correspond: pair and grow, compiled.
+"""Which parts of two maps correspond: pair and grow.
 
-The hot loops of `merge.hypotheses`; imported where first needed, as the compiler
-takes a moment to load. Darts, twins and the rest are those of `merge.layout`.
+The hot loops of `merge.hypotheses`, in plain Python that `merge.compiled` compiles;
+both give the same to the last bit. Darts, twins and the rest are those of
+`merge.layout`.
 """
 
 # mypy: ignore-errors
-# Compiled functions take their types from the call, and say them in no annotation.
+# What is compiled takes its types from the call, and says them in no annotation.
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
-from numba import njit
+
+from merge.exits_kernel import MOST, correspond, lengths_agree, rotate
+from merge.table_kernel import extended, put, slot_of
 
 __all__ = ["grow_all"]
 
-MOST = 64
-"""More exits than that no vertex may have."""
+UNIT = 1048576.0
+"""Scores are added as whole numbers of one part in so many."""
 
 
-@njit(cache=True)
-def correspond(a, b, du, dw, tol, slack, partner):
-    """Match the exits at two vertices whose darts du and dw correspond.
+def gain(a, b, xa, xb, gain_a, gain_b):
+    """Return what two edges that agree tell, half of it for each of their ends."""
+    d = a.length[xa] - b.length[xb]
+    spread = a.variance[xa] + b.variance[xb]
+    fit = -0.5 * (d * d / spread + math.log(math.tau * spread))
+    fit += min(gain_a[xa, 0], gain_b[xb, 0])
+    fit += min(gain_a[xa, 1], gain_b[xb, 1])
+    return np.int64(round(0.5 * fit * UNIT))
 
-    Writes into `partner`, for each exit of the first vertex, the exit of the second
-    or -1, and returns whether the vertices are compatible.
+
+def grow(
+    a, b, views, gains, tol, most, slack, rim, alike, mates, queue, partner, probe
+):  # fmt: skip
+    """Grow the pair at the head of the queue to its end, or to its first mismatch.
+
+    Returns the number of vertex pairs now in the queue, the score, the matched edges
+    seen from both ends, the contradictions, and whether some pair has two neighbours
+    that agree.
     """
-    u, w = a.owner[du], b.owner[dw]
-    if a.types[u] != b.types[w] and a.types[u] >= 0 and b.types[w] >= 0:
-        return False
-    p, q = a.first[u], b.first[w]
-    m, n = a.first[u + 1] - p, b.first[w + 1] - q
-    strict = a.complete[u] and b.complete[w]
-    if strict and abs(m - n) > slack:
-        return False
-    turn = b.angle[dw] - a.angle[du]
-    if strict and m == n:
-        offset = (dw - q) - (du - p)
-        total = 0.0
-        square = 0.0
-        for i in range(m):
-            j = (i + offset) % m
-            partner[i] = j
-            e = b.angle[q + j] - a.angle[p + i] - turn
-            e -= math.tau * round(e / math.tau)
-            total += e
-            square += e * e
-        return square - total * total / m <= m * tol * tol
-    for j in range(n):
-        partner[MOST + j] = -1
-    alone = 0
-    for i in range(m):
-        partner[i] = -1
-        best = 2.0 * tol
-        for j in range(n):
-            e = b.angle[q + j] - a.angle[p + i] - turn
-            e = abs(e - math.tau * round(e / math.tau))
-            if e <= best and partner[MOST + j] < 0:
-                best = e
-                partner[i] = j
-        if partner[i] >= 0:
-            partner[MOST + partner[i]] = i
+    quick, exact = alike
+    view_a, view_b = views
+    mate_a, mate_b, dart_of = mates
+    queue_a, queue_b = queue
+    head = 0
+    tail = 1
+    score = 0
+    edges = 0
+    wrong = 0
+    core = False
+    while head < tail and (wrong == 0 or rim):
+        da, db = queue_a[head], queue_b[head]
+        head += 1
+        here, there = a.owner[da], b.owner[db]
+        if quick and view_a[da] == view_b[db]:
+            rotate(a, b, da, db, partner)
         else:
-            alone += 1
-    left = n - (m - alone)
-    if strict:
-        return alone + left <= slack
-    return not ((a.complete[u] and left > 0) or (b.complete[w] and alone > 0))
+            correspond(a, b, da, db, tol, slack, partner)
+        pa, pb = a.first[here], b.first[there]
+        joint = 0
+        clean = a.complete[here] and b.complete[there]
+        for i in range(a.first[here + 1] - pa):
+            if partner[i] < 0:
+                continue
+            xa, xb = pa + i, pb + partner[i]
+            ra, rb = a.twin[xa], b.twin[xb]
+            if ra < 0 or rb < 0:
+                continue
+            v, z = a.owner[ra], b.owner[rb]
+            agree = lengths_agree(a, b, xa, xb, most)
+            ka, kb = a.first[v], b.first[z]
+            if agree and quick and view_a[ra] == view_b[rb]:
+                kb += (rb - kb - ra + ka) % (a.first[v + 1] - ka)
+            elif agree and exact:
+                agree = False
+            elif agree:
+                agree = correspond(a, b, ra, rb, tol, slack, probe)
+                k = 0
+                while agree and probe[k] < 0:
+                    k += 1
+                ka, kb = ka + k, kb + probe[k]
+            if agree:
+                if mate_a[v] < 0 and mate_b[z] < 0:
+                    mate_a[v] = z
+                    mate_b[z] = v
+                    dart_of[v] = kb
+                    queue_a[tail] = ka
+                    queue_b[tail] = kb
+                    tail += 1
+                else:
+                    agree = mate_a[v] == z and dart_of[v] == kb
+            if not agree:
+                wrong += 1
+                clean = False
+                if not rim:
+                    break
+                continue
+            if a.solid[xa] and b.solid[xb]:
+                joint += 1
+            # Both ends see each edge; half of its gain from each.
+            score += gain(a, b, xa, xb, gains[0], gains[1])
+            edges += 1
+        if clean and joint >= 2:
+            core = True
+    return tail, score, edges, wrong, core
 
 
-@njit(cache=True)
-def lengths_agree(a, b, da, db, most):
-    """Tell whether the lengths at two darts differ by no more than chance allows."""
-    d = a.length[da] - b.length[db]
-    return d * d <= most * (a.variance[da] + b.variance[db])
-
-
-@njit(cache=True)
-def slot_of(keys, key):
-    """Return where a key is, or is to be put, in an open table."""
-    mask = len(keys) - 1
-    h = key * np.int64(-7046029254386353131)
-    k = (h ^ (h >> np.int64(29))) & mask
-    while keys[k] != -1 and keys[k] != key:
-        k = (k + 1) & mask
-    return k
-
-
-@njit(cache=True)
 def grow_all(
-    a, b, key_a, entry_a, key_b, entry_b, row_b, gain_a, gain_b,
-    tol, most, slack, rim, least, only_a, only_b, known,
+    a, b, views, key_a, entry_a, key_b, entry_b, row_b, gains,
+    tol, most, slack, rim, alike, least, only_a, only_b, known,
 ):  # fmt: skip
     """Grow every seed and return the hypotheses that survive.
 
     Entries are pairs of solid darts of one vertex, sorted by key; of B only the first
     dart is given, and in `row_b` what the search reads: length and variance at the
     first and at the second, and the least length that the first allows, by which
-    rows of one key rise. Returns arrays:
-    the start of each hypothesis, its pairs (dart of A, dart of B, standing for vertex
-    pair and rotation), scores in units of 2**-20, matched edges, contradictions; and
-    the number of seeds tried.
+    rows of one key rise. Of `alike` the first says that vertices of equal views
+    correspond, the second that no others do. Returns arrays: the pairs (dart of A,
+    dart of B, standing for vertex pair and rotation); for each hypothesis where its
+    pairs end, its score in `UNIT`, matched edges, contradictions; and the number of
+    seeds tried.
     """
     size_a, size_b = len(a.first) - 1, len(b.first) - 1
     darts_b = len(b.owner)
@@ -114,28 +135,22 @@ def grow_all(
     probe = np.empty(2 * MOST, np.int64)
     table = np.full(1024, -1, np.int64)
     held = 0
-    room = 1024
-    out_a = np.empty(room, np.int64)
-    out_b = np.empty(room, np.int64)
-    starts = np.zeros(256, np.int64)
-    scores = np.zeros(256, np.int64)
-    matched = np.zeros(256, np.int64)
-    against = np.zeros(256, np.int64)
+    pairs = np.zeros((2, 1024), np.int64)
+    told = np.zeros((4, 256), np.int64)
     count = 0
     filled = 0
     tried = 0
     lo = 0
-    total_b = len(key_b)
     for x in range(len(key_a)):
         a1, a2 = entry_a[x, 0], entry_a[x, 1]
-        while lo < total_b and key_b[lo] < key_a[x]:
+        while lo < len(key_b) and key_b[lo] < key_a[x]:
             lo += 1
         u = a.owner[a1]
         p = a.first[u]
         high = a.length[a1] + math.sqrt(most * a.variance[a1])
         la1, va1 = a.length[a1], most * a.variance[a1]
         la2, va2 = a.length[a2], most * a.variance[a2]
-        for y in range(lo, total_b):
+        for y in range(lo, len(key_b)):
             # Rows rise with the least true length that they allow.
             if key_b[y] != key_a[x] or row_b[y, 4] > high:
                 break
@@ -152,7 +167,9 @@ def grow_all(
                 k = np.searchsorted(known, pair)
                 if k == len(known) or known[k] != pair:
                     continue
-            if not correspond(a, b, a1, b1, tol, 0, partner):
+            if alike[0]:
+                rotate(a, b, a1, b1, partner)
+            elif not correspond(a, b, a1, b1, tol, 0, partner):
                 continue
             q = b.first[w]
             # Each (pair, rotation) has one entry that counts: its two first exits
@@ -168,77 +185,15 @@ def grow_all(
             if table[slot_of(table, first)] == first:
                 continue
             tried += 1
-            # Grow.
-            head = 0
-            tail = 1
             queue_a[0] = p
             queue_b[0] = q + partner[0]
             mate_a[u] = w
             mate_b[w] = u
             dart_of[u] = q + partner[0]
-            score = 0
-            edges = 0
-            wrong = 0
-            core = False
-            while head < tail and (wrong == 0 or rim):
-                da, db = queue_a[head], queue_b[head]
-                head += 1
-                here, there = a.owner[da], b.owner[db]
-                correspond(a, b, da, db, tol, slack, partner)
-                pa, pb = a.first[here], b.first[there]
-                joint = 0
-                clean = a.complete[here] and b.complete[there]
-                for i in range(a.first[here + 1] - pa):
-                    j = partner[i]
-                    if j < 0:
-                        continue
-                    xa, xb = pa + i, pb + j
-                    ra, rb = a.twin[xa], b.twin[xb]
-                    if ra < 0 or rb < 0:
-                        continue
-                    if not lengths_agree(a, b, xa, xb, most):
-                        wrong += 1
-                        clean = False
-                        if not rim:
-                            break
-                        continue
-                    if not correspond(a, b, ra, rb, tol, slack, probe):
-                        wrong += 1
-                        clean = False
-                        if not rim:
-                            break
-                        continue
-                    v, z = a.owner[ra], b.owner[rb]
-                    k = 0
-                    while probe[k] < 0:
-                        k += 1
-                    ka, kb = a.first[v] + k, b.first[z] + probe[k]
-                    if mate_a[v] >= 0 or mate_b[z] >= 0:
-                        if mate_a[v] != z or dart_of[v] != kb:
-                            wrong += 1
-                            clean = False
-                            if not rim:
-                                break
-                            continue
-                    else:
-                        mate_a[v] = z
-                        mate_b[z] = v
-                        dart_of[v] = kb
-                        queue_a[tail] = ka
-                        queue_b[tail] = kb
-                        tail += 1
-                    if a.solid[xa] and b.solid[xb]:
-                        joint += 1
-                    # Both ends see each edge; half of its gain from each.
-                    d = a.length[xa] - b.length[xb]
-                    spread = a.variance[xa] + b.variance[xb]
-                    fit = -0.5 * (d * d / spread + math.log(math.tau * spread))
-                    fit += min(gain_a[xa, 0], gain_b[xb, 0])
-                    fit += min(gain_a[xa, 1], gain_b[xb, 1])
-                    score += np.int64(round(0.5 * fit * 1048576.0))
-                    edges += 1
-                if clean and joint >= 2:
-                    core = True
+            tail, score, edges, wrong, core = grow(
+                a, b, views, gains, tol, most, slack, rim, alike,
+                (mate_a, mate_b, dart_of), (queue_a, queue_b), partner, probe,
+            )  # fmt: skip
             keep = tail >= least and core and (wrong == 0 or rim)
             if keep and rim and wrong > 0:
                 # Grown from another seed, the same part may have come out before.
@@ -248,49 +203,20 @@ def grow_all(
                         keep = False
                         break
             if keep:
-                while filled + tail > room:
-                    room *= 2
-                    more_a = np.empty(room, np.int64)
-                    more_b = np.empty(room, np.int64)
-                    more_a[:filled] = out_a[:filled]
-                    more_b[:filled] = out_b[:filled]
-                    out_a, out_b = more_a, more_b
-                while 2 * (held + tail) > len(table):
-                    bigger = np.full(2 * len(table), -1, np.int64)
-                    for k in range(len(table)):
-                        if table[k] != -1:
-                            bigger[slot_of(bigger, table[k])] = table[k]
-                    table = bigger
-                if count + 2 > len(starts):
-                    grown = 2 * len(starts)
-                    more = np.zeros((4, grown), np.int64)
-                    more[0, : count + 1] = starts[: count + 1]
-                    more[1, :count] = scores[:count]
-                    more[2, :count] = matched[:count]
-                    more[3, :count] = against[:count]
-                    starts, scores = more[0], more[1]
-                    matched, against = more[2], more[3]
+                pairs = extended(pairs, filled, tail)
+                told = extended(told, count, 1)
                 for k in range(tail):
-                    out_a[filled + k] = queue_a[k]
-                    out_b[filled + k] = queue_b[k]
+                    pairs[0, filled + k] = queue_a[k]
+                    pairs[1, filled + k] = queue_b[k]
                     key = queue_a[k] * darts_b + queue_b[k]
-                    table[slot_of(table, key)] = key
-                held += tail
+                    table, held = put(table, held, key)
                 filled += tail
-                scores[count] = score
-                matched[count] = edges // 2
-                against[count] = wrong
+                told[0, count] = filled
+                told[1, count] = score
+                told[2, count] = edges // 2
+                told[3, count] = wrong
                 count += 1
-                starts[count] = filled
             for k in range(tail):
                 mate_a[a.owner[queue_a[k]]] = -1
                 mate_b[b.owner[queue_b[k]]] = -1
-    return (
-        starts[: count + 1].copy(),
-        out_a[:filled].copy(),
-        out_b[:filled].copy(),
-        scores[:count].copy(),
-        matched[:count].copy(),
-        against[:count].copy(),
-        tried,
-    )
+    return pairs[:, :filled].copy(), told[:, :count].copy(), tried

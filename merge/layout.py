@@ -108,10 +108,9 @@ def is_square(layout: Layout) -> bool:
     """Tell whether all exits of a map are quarter turns apart."""
     if len(layout.angle) == 0:
         return True
-    turned = np.exp(4j * layout.angle)
-    axis = np.angle(turned.sum())
-    off = np.abs(np.angle(turned * np.exp(-1j * axis))) / 4
-    return bool(off.max() <= SQUARE)
+    turned = (layout.angle - layout.angle[0]) / (math.pi / 2)
+    off = (turned - np.rint(turned)) * (math.pi / 2)
+    return bool(np.ptp(off) <= 2 * SQUARE)
 
 
 def _views(layout: Layout, square: bool) -> Ints:

@@ -41,6 +41,11 @@ class Options:
     false_merge: float = 1e-3
     """A merge whose probability to be wrong is above is refused; in (0, 1)."""
 
+    compiled: bool = True
+    """Search with the compiled loops. Loading them takes most of a second, in which
+    the same loops in plain Python match two maps of some hundred vertices; either
+    finds the same."""
+
     def __post_init__(self) -> None:
         for name, low, high in (
             ("threshold", 0.0, 1.0),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -52,27 +53,39 @@ def find_overlays(
     sizes = np.diff(hypotheses.first)
     found = []
     for members in groups.values():
-        rows = _one_to_one(hypotheses, sorted(members, key=lambda h: (-sizes[h], h)))
+        rows, share = _one_to_one(
+            hypotheses, sorted(members, key=lambda h: (-sizes[h], h))
+        )
         pairs = np.column_stack([hypotheses.a[rows], hypotheses.b[rows]])
         group = np.array([0, len(pairs)])
         p, q = at_b[pairs[:, 1]], at_a[pairs[:, 0]]
         move = RigidTransform(*transform_groups(group, p, q)[0].tolist())
         residual = float(((move(p) - q) ** 2).sum())
-        score = float(hypotheses.score[members].sum())
+        score = math.fsum(hypotheses.score[h] * part for h, part in share.items())
         found.append(Cluster(tuple(members), pairs, move, residual, score))
     return rank_clusters(found)
 
 
-def _one_to_one(hypotheses: Hypotheses, members: list[int]) -> NDArray[np.int64]:
-    """Return the rows of the pairs, without those whose vertex is taken already."""
+def _one_to_one(
+    hypotheses: Hypotheses, members: list[int]
+) -> tuple[NDArray[np.int64], dict[int, float]]:
+    """Return the rows of the pairs, without those whose vertex is taken already.
+
+    And for each member the share of its pairs that is kept: what it says of a place
+    that another one has taken speaks for no overlay.
+    """
     taken_a: set[int] = set()
     taken_b: set[int] = set()
-    rows = []
+    rows: list[int] = []
+    share = {}
     for h in members:
-        for row in range(int(hypotheses.first[h]), int(hypotheses.first[h + 1])):
+        before = len(rows)
+        first, last = int(hypotheses.first[h]), int(hypotheses.first[h + 1])
+        for row in range(first, last):
             a, b = int(hypotheses.a[row]), int(hypotheses.b[row])
             if a not in taken_a and b not in taken_b:
                 taken_a.add(a)
                 taken_b.add(b)
                 rows.append(row)
-    return np.array(rows)
+        share[h] = (len(rows) - before) / (last - first)
+    return np.array(rows), share

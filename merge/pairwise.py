@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from merge.chance import false_merge_probability
+from merge.chance import by_luck, false_merge_probability
 from merge.embedding import embed
 from merge.hypotheses import Hypotheses, grow_hypotheses
 from merge.layout import lay_out
 from merge.options import Options
 from merge.overlays import find_overlays
-from merge.repeats import find_repeats
+from merge.repeats import find_copies, told_by_copies
 from merge.verification import verify
 
 if TYPE_CHECKING:
@@ -84,7 +84,8 @@ def match(a: Graph, b: Graph, options: Options | None = None) -> Match:
     Two halves of one maze, of which the second lies askew:
 
     >>> import numpy as np
-    >>> from merge.makers import breadth_first, cut, make_maze, perturb, turn
+    >>> from merge.makers import breadth_first, cut, perturb, turn
+    >>> from merge.mazes import make_maze
     >>> rng = np.random.default_rng(7)
     >>> maze = make_maze(8, 8, rng)
     >>> one = perturb(cut(maze, breadth_first(maze, 0, 24)), 0.03, rng)
@@ -120,27 +121,33 @@ def decide(
     overlays.sort(key=lambda c: (-c.score, c.residual, c.members))
     best, others = overlays[0], tuple(overlays[1:])
     trials = float(len(a) * len(b))
-    rivals = [other.score for other in others]
+    rivals = [
+        min(best.score, other.score + float(by_luck(len(other.pairs))))
+        for other in others
+    ]
     wrong = false_merge_probability(best.score, rivals, trials)
     if wrong > options.false_merge:
         reason = _why(best, others, wrong, trials, options)
         return Match(False, reason, wrong, best, others, hypotheses, at_a, at_b)
     verified = verify(*layouts, at_a, at_b, best, options)
-    repeated = find_repeats(a, layouts[0], best.pairs[:, 0], options)
-    repeated |= find_repeats(b, layouts[1], best.pairs[:, 1], options)
-    novel = best.score * (1 - repeated.mean())
-    clashes = len(verified.clashes)
+    copies = [
+        find_copies(graph, layout, best.pairs[:, side], options)
+        for side, (graph, layout) in enumerate(zip((a, b), layouts, strict=True))
+    ]
+    told = told_by_copies(copies, len(best.pairs), best.score)
+    against = told + CLASH * len(verified.clashes)
     wrong = false_merge_probability(
-        novel - CLASH * clashes, [s - best.score + novel for s in rivals], trials
+        best.score - against, [score - told for score in rivals], trials
     )
-    best = verified.cluster
     reason = ""
     if wrong > options.false_merge:
+        share = told / best.score
         reason = (
-            f"of {len(repeated)} matching vertices {int(repeated.sum())} lie in parts "
-            f"that a map has more than once, and {clashes} others clash: the overlay "
-            f"is wrong with probability {wrong:.2g}"
+            f"{len(best.pairs)} vertices match, but parts of them that a map has more "
+            f"than once tell {share:.0%} of that, and {len(verified.clashes)} others "
+            f"clash: the overlay is wrong with probability {wrong:.2g}"
         )
+    best = verified.cluster
     return Match(not reason, reason, wrong, best, others, hypotheses, at_a, at_b)
 
 

@@ -1,45 +1,47 @@
-"""Which matched places look the same elsewhere in their own map."""
+"""How much of a match a map would say anyway, because its parts repeat."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from merge.chance import by_luck
 from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out
 from merge.makers import cut
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Sequence
 
     from merge.graph import Graph
     from merge.layout import Layout
     from merge.options import Options
 
-__all__ = ["find_repeats"]
+__all__ = ["Copies", "find_copies", "told_by_copies"]
 
-GREAT = 1 / 3
-"""Share of the matched vertices that a repeated part must have to count.
-
-Every building has equal corners and equal small rooms, and they tell its parts apart
-by how they are joined; what is repeated in large cannot do so.
-"""
+START = 2.0
+"""What it takes to say that a copy begins here, beside saying of which place."""
 
 
-def find_repeats(
-    graph: Graph,
-    layout: Layout,
-    vertices: NDArray[np.int64],
-    options: Options,
-) -> NDArray[np.bool_]:
-    """Tell which of some vertices lie in a part that the map has twice.
+class Copies(NamedTuple):
+    """Parts of a match that a map has elsewhere too."""
 
-    A corridor with ten equal rooms fits another robot's map of it in many ways, and
-    the way in which most rooms match is as likely wrong as right. So a repeated part
-    is no evidence for an overlay, however large it is.
+    first: NDArray[np.int64]
+    """Shape (C + 1,): rows of part c are ``first[c]:first[c + 1]``."""
+    matched: NDArray[np.int64]
+    """Shape (R,): which of the matched vertices are in the part."""
+    told: NDArray[np.float64]
+    """Shape (C,): by how much the other place tells what is in the part."""
+
+
+def find_copies(
+    graph: Graph, layout: Layout, vertices: NDArray[np.int64], options: Options
+) -> Copies:
+    """Find the parts of a match that its own map has elsewhere as well.
 
     Parameters
     ----------
@@ -53,18 +55,59 @@ def find_repeats(
 
     Returns
     -------
-    ndarray of bool, shape (K,)
-        True where a connected part with that vertex, of at least a third of
-        `vertices`, corresponds to another part of the map, more alike than chance
-        makes it.
+    Copies
+        What another place tells is the score of the two as a match, less what it
+        takes to name the place. Only those of which that is above 0.
     """
     part = lay_out(cut(graph, vertices))
     found = grow_hypotheses(part, layout, replace(options, tolerate_rim=True))
-    limit = math.log(len(vertices) * len(graph))
-    repeated = np.zeros(len(vertices), bool)
-    for h in np.flatnonzero(found.score > limit).tolist():
-        pairs = found.pairs(h)
-        elsewhere = not (vertices[pairs[:, 0]] == pairs[:, 1]).any()
-        if elsewhere and len(pairs) >= GREAT * len(vertices):
-            repeated[pairs[:, 0]] = True
-    return repeated
+    sizes = np.diff(found.first)
+    told = found.score + by_luck(sizes) - math.log(len(graph)) - START
+    group = np.repeat(np.arange(len(sizes)), sizes)
+    here = np.bincount(group, vertices[found.a] == found.b, minlength=len(sizes)) > 0
+    kept = (told > 0) & ~here
+    first = np.concatenate([[0], np.cumsum(sizes[kept])])
+    return Copies(first, found.a[kept[group]], told[kept])
+
+
+def told_by_copies(copies: Sequence[Copies], size: int, score: float) -> float:
+    """Return how much of a match's score the copies of its parts explain.
+
+    A corridor with ten equal rooms fits another robot's map of it in many ways, and
+    the way in which most rooms match is as likely wrong as right: after one room
+    the others are no news. So a part of the match that lies elsewhere too counts for
+    no more than it takes to say where.
+
+    Parameters
+    ----------
+    copies : sequence of Copies
+        From `find_copies`, of either map.
+    size : int
+        Matched vertices.
+    score : float
+        Of the match.
+
+    Returns
+    -------
+    float
+        In [0, score]: copies are taken greedily, the best first, each for the
+        vertices that no other has explained.
+    """
+    left = np.ones(size, bool)
+    whole = [np.diff(some.first) for some in copies if len(some.told)]
+    if not whole:
+        return 0.0
+    sizes = np.concatenate(whole)
+    rows = np.concatenate([some.matched for some in copies])
+    told = np.minimum(
+        np.concatenate([some.told for some in copies]), score * sizes / size
+    )
+    first = np.concatenate([[0], np.cumsum(sizes)])
+    sum_ = 0.0
+    while True:
+        gains = told * np.add.reduceat(left[rows], first[:-1], dtype=float) / sizes
+        best = int(np.argmax(gains))
+        if gains[best] <= 0:
+            return min(sum_, score)
+        sum_ += float(gains[best])
+        left[rows[first[best] : first[best + 1]]] = False

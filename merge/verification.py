@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from merge.clustering import transform_groups
+from merge.nearest import nearest
 from merge.rigid import RigidTransform
 
 if TYPE_CHECKING:
@@ -97,22 +98,19 @@ def _look(
     options: Options,
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Return new pairs and clashes around matched pairs, each shape (K, 2)."""
-    from scipy.spatial import cKDTree
-
     none = np.zeros((0, 2), np.int64)
     free = np.ones(len(at_a), bool)
     free[pairs[:, 0]] = False
     loose = np.flatnonzero(free)
     if len(loose) == 0 or len(at_b) < 2:
         return none, none
-    found = cKDTree(at_a[pairs[:, 0]]).query(at_a[loose])
-    away, k = np.asarray(found[0]), np.asarray(found[1])
+    found = nearest(at_a[pairs[:, 0]], at_a[loose], 1)
+    away, k = found[0][:, 0], found[1][:, 0]
     c, s = math.cos(turn), math.sin(turn)
     step = (at_a[loose] - at_a[pairs[k, 0]]) @ np.array([[c, -s], [s, c]])
     place = at_b[pairs[k, 1]] + step
     spread = DEVIATIONS * np.sqrt(2 * away * (_drift(a) + _drift(b)))
-    found = cKDTree(at_b).query(place, k=2)
-    distance, two = np.asarray(found[0]), np.asarray(found[1])
+    distance, two = nearest(at_b, place, 2)
     # Only where no second vertex can be meant.
     sure = (distance[:, 0] <= spread) & (distance[:, 1] > ALONE * spread)
     surely = distance[:, 1] > SURELY_ALONE * spread

@@ -72,7 +72,44 @@ done
 expect 0 compare ideal.json physical.json --json
 field correct true
 expect 0 show ideal.json -o map.png
-wrote map.png
+expect 0 show ideal.json -o map.html
+expect 0 build l.json -o paged.json --sigma 0.05 --seed 2 --page run.html
+cmp -s paged.json ideal.json || fail "build --page: another map than without"
+wrote map.png map.html run.html
+
+# Other formats, there and back.
+for name in map.graphml map.node-link.json map.tmap2.yaml map.g2o; do
+    expect 0 convert ideal.json "$name"
+    expect 0 convert "$name" back.json
+    wrote "$name" back.json
+done
+for name in map.yaml map.geojson map.tum; do
+    expect 0 convert ideal.json "$name"
+    wrote "$name"
+done
+wrote map.pgm
+expect 0 convert l.json l.yaml
+expect 0 convert l.yaml back.json --json
+field target_format '"world"'
+
+expect 0 doctor --json
+expect 0 --show-completion bash
+
+# Islands and routes.
+expect 0 world make random --corners 8 --islands 1 --seed 5 -o island.json
+expect 0 build island.json -o better.json --improve active --sigma 0.02 --json
+field correct true
+field islands 1
+expect 0 compare better.json --world island.json --json
+field correct true
+for body in ideal physical; do
+    expect 0 route better.json 0 9 --world island.json --body "$body" --json
+    field arrived true
+done
+expect 2 route better.json 0 999
+one_line target
+expect 3 route better.json 0 1 --world l.json
+one_line "not that of the world"
 
 # Bad input: exit code 2, one line that names the file and what is wrong.
 expect 2 build nowhere.json -o map.json

@@ -1,14 +1,18 @@
 """What hypothesis draws: robots, worlds, grids, costs, and spoilt JSON values."""
 
 import json
+import math
 
 import numpy as np
 from hypothesis import strategies as st
 
 import worlds
 from behaviours.parameters import Parameters
+from behaviours.vertices import VertexType
+from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 
 __all__ = [
+    "charts",
     "parameters",
     "random_worlds",
     "rectilinear_rings",
@@ -45,6 +49,70 @@ def random_worlds(draw, most_corners=40, most_islands=4, passage=None, spread=0.
         passage=draw(st.floats(0.05, 2.0)) if passage is None else passage,
         spread=spread,
     )
+
+
+metres = st.floats(-1e6, 1e6)
+lengths = st.builds(Length, st.floats(1e-3, 1e6), st.just(0.0) | st.floats(1e-6, 1e3))
+
+
+@st.composite
+def charts(draw, most=8, placed=None, straight=False):
+    """Draw a map that does not contradict itself; few are maps of a building.
+
+    With `straight`, the two ends of an edge leave in opposite directions, as they
+    do in a map that can be embedded.
+    """
+    count = draw(st.integers(0, most))
+    ids = draw(
+        st.lists(st.integers(-5, 10**9), min_size=count, max_size=count, unique=True)
+    )
+    exits = [draw(st.lists(st.integers(-5, 6), max_size=5, unique=True)) for _ in ids]
+    free = [(row, step) for row, steps in enumerate(exits) for step in steps]
+    edges = []
+    while len(free) > 1 and draw(st.booleans()):
+        row, step = free.pop(draw(st.integers(0, len(free) - 1)))
+        fit = [
+            (other, back)
+            for other, back in free
+            if not straight or (other != row and (back - step) % 12 == 6)
+        ]
+        if not fit:
+            break
+        other = draw(st.sampled_from(fit))
+        free.remove(other)
+        edges.append(
+            Edge(
+                ids[row],
+                ids[other[0]],
+                math.radians(30 * step),
+                math.radians(30 * other[1]),
+                tuple(draw(st.lists(lengths, min_size=1, max_size=3))),
+                draw(st.sampled_from(["WF", "HF", 'walk <on> & "on"', "été", " "])),
+                draw(st.just(0.0) | st.floats(-1, 1)),
+                draw(st.none() | st.floats(0, 5)),
+            )
+        )
+    used = {(e.source, e.source_exit) for e in edges} | {
+        (e.target, e.target_exit) for e in edges
+    }
+    vertices = []
+    for name, steps in zip(ids, exits, strict=True):
+        angles = tuple(math.radians(30 * step) for step in steps)
+        has_place = draw(st.booleans()) if placed is None else placed
+        vertices.append(
+            Vertex(
+                name,
+                draw(st.sampled_from(VertexType)),
+                angles,
+                tuple(
+                    a for a in angles if (name, a) not in used and draw(st.booleans())
+                ),
+                draw(st.tuples(metres, metres)) if has_place else None,
+                ((1.0, 0.5), (0.5, 2.0)) if draw(st.booleans()) else None,
+            )
+        )
+    robot = Parameters() if draw(st.booleans()) else None
+    return TopologicalMap(tuple(vertices), tuple(edges), robot)
 
 
 @st.composite

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from topomap.mapping import Build, build_map
     from topomap.merging import merge_maps
     from topomap.team.exploring import explore
+    from topomap.routes.planning import plan_route
     from topomap.topological_map import TopologicalMap
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "load_map",
     "load_world",
     "merge_maps",
+    "plan_route",
     "save_map",
     "save_world",
 ]
@@ -41,6 +43,7 @@ _HOME = {
     "load_map": "topomap.files.map_files",
     "load_world": "topomap.files.world_files",
     "merge_maps": "topomap.merging",
+    "plan_route": "topomap.routes.planning",
     "save_map": "topomap.files.map_files",
     "save_world": "topomap.files.world_files",
 }

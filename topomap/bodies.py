@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from behaviours.parameters import Parameters
 from topomap.errors import InputError
+from topomap.incursions.errors import Drift
 
 if TYPE_CHECKING:
     import numpy as np
@@ -16,10 +17,20 @@ if TYPE_CHECKING:
     from worlds.profiles import Profile
     from worlds.world import World
 
-__all__ = ["BODIES", "body_parameters", "make_body"]
+__all__ = [
+    "BODIES",
+    "body_drift",
+    "body_parameters",
+    "body_profile",
+    "make_body",
+]
 
 BODIES = ("ideal", "physical", "generic", "generic5", "epuck")
 """The ideal body; the default physical robot; physical robots by profile."""
+HEADING = 0.02
+"""How surely a physical body that has followed a wall is parallel to it, in radians."""
+STAND = 0.1
+"""How surely it stands at a corner, in parts of r0."""
 
 
 def body_parameters(name: str) -> Parameters:
@@ -30,8 +41,40 @@ def body_parameters(name: str) -> Parameters:
     InputError
         If there is no such body.
     """
-    profile = _profile(name)
+    profile = body_profile(name)
     return Parameters() if profile is None else profile.parameters
+
+
+def body_drift(name: str, sigma: float) -> Drift:
+    """Return what a body knows of its own errors.
+
+    Parameters
+    ----------
+    name : str
+        One of `BODIES`.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+
+    Returns
+    -------
+    Drift
+        Of the ideal body, whose headings are exact, only of lengths.
+
+    Raises
+    ------
+    InputError
+        If there is no such body.
+    """
+    profile = body_profile(name)
+    if profile is None:
+        return Drift(sigma)
+    return Drift(
+        sigma,
+        turn=profile.turn_error,
+        heading=HEADING if profile.drift else 0.0,
+        bend=profile.drift,
+        stand=STAND * profile.parameters.r0,
+    )
 
 
 def make_body(
@@ -74,7 +117,7 @@ def make_body(
     InputError
         If there is no such body.
     """
-    profile = _profile(name)
+    profile = body_profile(name)
     if profile is None:
         from worlds.ideal import IdealBody
 
@@ -87,8 +130,14 @@ def make_body(
     )
 
 
-def _profile(name: str) -> Profile | None:
-    """Return a physical body's profile; None for the ideal one."""
+def body_profile(name: str) -> Profile | None:
+    """Return a physical body's profile; None for the ideal one.
+
+    Raises
+    ------
+    InputError
+        If there is no such body.
+    """
     if name not in BODIES:
         raise InputError("", "body", name, f"one of {', '.join(BODIES)}")
     if name == "ideal":

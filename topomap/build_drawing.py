@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from topomap.mapping import Build
     from worlds.world import World
 
-__all__ = ["draw_belief", "fill_figure"]
+__all__ = ["draw_belief", "draw_build", "fill_figure"]
 
 
 def fill_figure(built: Build, world: World, figure: Figure) -> None:
@@ -36,16 +36,37 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
     """
     figure.set_size_inches(13, 7)
     left, right = figure.subplots(1, 2, width_ratios=(3, 2))
-    draw_world(world, left)
+    draw_build(built, world, left)
+    draw_belief(built.walk, right)
+
+
+def draw_build(built: Build, world: World, ax: Axes) -> Axes:
+    """Draw the map that was built over the walls, and where the robot began.
+
+    Parameters
+    ----------
+    built : Build
+        Its map is turned and moved to lie over the truth.
+    world : World
+        Where it was built.
+    ax : matplotlib.axes.Axes
+        Drawn into.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The same axes.
+    """
+    draw_world(world, ax)
     found = built.comparison
     draw_map(
         built.map,
-        left,
+        ax,
         rotation=found.rotation or 0.0,
         offset=found.offset or (built.start.x, built.start.y),
     )
     heading = built.start.heading
-    left.annotate(
+    ax.annotate(
         "",
         (
             built.start.x + 0.6 * math.cos(heading),
@@ -55,11 +76,11 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
         arrowprops={"arrowstyle": "-|>", "color": "#ff7f00", "lw": 1.5},
     )
     verdict = "correct" if built.correct else "not correct"
-    left.set_title(
+    ax.set_title(
         f"{len(built.map.vertices)} vertices, {verdict}, {built.travelled:.0f} m",
         fontsize=9,
     )
-    draw_belief(built.walk, right)
+    return ax
 
 
 def draw_belief(walk: Walk, ax: Axes) -> Axes:

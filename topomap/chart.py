@@ -210,7 +210,7 @@ class Chart:
         return (link for end, link in self.links.items() if link.ends[0] == end)
 
 
-def behaviour_of(way: Way, way_back: Way) -> str:
+def behaviour_of(way: Way | None, way_back: Way | None) -> str:
     """Return the name of the behaviour that drives an edge with these ways at its ends.
 
     WF along a wall, HF along a hall, and ENTER between a hall and open space.

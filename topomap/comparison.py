@@ -12,7 +12,7 @@ from merge.rigid import AmbiguousRotationError, RigidTransform, register_rigid
 from topomap.embedding import embedded
 from topomap.topological_map import TopologicalMap, Vertex, same_direction
 
-__all__ = ["Comparison", "compare_maps"]
+__all__ = ["Comparison", "best_motion", "compare_maps", "isomorphisms"]
 
 TOLERANCE = math.radians(10)
 """Exits that differ by less, after the maps are turned, can be the same."""
@@ -94,6 +94,53 @@ def compare_maps(
     return min(found, key=_rank)
 
 
+def isomorphisms(
+    chart: TopologicalMap,
+    reference: TopologicalMap,
+    rotation: float | None = None,
+    tolerance: float = TOLERANCE,
+) -> list[dict[int, int]]:
+    """Return all ways in which two connected maps are the same, as matched ids.
+
+    Parameters
+    ----------
+    chart, reference : TopologicalMap
+        Compared by types, exits and edges.
+    rotation : float, optional
+        Only those that turn the map by so much, in radians.
+    tolerance : float
+        By how much exits, and the rotation, may differ, in radians.
+
+    Returns
+    -------
+    list of dict of int to int
+        Vertex ids of the map to those of the reference.
+    """
+    a, b = _Ways(chart), _Ways(reference)
+    return [
+        pairs
+        for pairs in _isomorphisms(a, b, tolerance)
+        if rotation is None or _turns_by(a, b, pairs, rotation, tolerance)
+    ]
+
+
+def best_motion(
+    pairs: dict[int, int], chart: TopologicalMap, reference: TopologicalMap
+) -> tuple[RigidTransform, float]:
+    """Return the motion that lays matched vertices nearest, and the rmse left."""
+    return _best_motion(pairs, _places(chart), _places(reference))
+
+
+def _turns_by(
+    a: _Ways, b: _Ways, pairs: dict[int, int], rotation: float, tolerance: float
+) -> bool:
+    """Tell whether all matched vertices agree when turned by a rotation."""
+    return all(
+        _agree(a.vertices[i], b.vertices[j], rotation, tolerance)
+        for i, j in pairs.items()
+    )
+
+
 def _rank(found: Comparison) -> tuple[bool, int, float]:
     wrong = found.missing_vertices + found.extra_vertices
     return not found.correct, wrong, found.position_rmse or 0.0
@@ -127,10 +174,11 @@ class _Ways:
     """A map by its exits: where each exit of each vertex leads."""
 
     def __init__(self, chart: TopologicalMap) -> None:
-        self.edges = len(chart.edges)
+        edges = [edge for edge in chart.edges if not edge.is_incursion]
+        self.edges = len(edges)
         self.vertices = {vertex.id: vertex for vertex in chart.vertices}
         self.leads: dict[int, list[tuple[float, int]]] = {v: [] for v in self.vertices}
-        for edge in chart.edges:
+        for edge in edges:
             self.leads[edge.source].append((edge.source_exit, edge.target))
             self.leads[edge.target].append((edge.target_exit, edge.source))
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from worlds.world import World
 
-__all__ = ["check_picture", "draw_world", "save_figure", "save_picture"]
+__all__ = ["check_picture", "draw_world", "save_figure", "save_picture", "svg_of"]
 
 SUFFIXES = ".svg", ".png", ".pdf"
 SOLID, FREE, EDGE = "#c9ccd1", "#ffffff", "#3a3f47"
@@ -27,7 +27,7 @@ LONG_SIDE = 9.0
 """Of a picture, in inches."""
 
 
-def draw_world(world: World, ax: Axes) -> None:
+def draw_world(world: World, ax: Axes) -> Axes:
     """Draw a world with its walls filled, in metres.
 
     Parameters
@@ -36,6 +36,11 @@ def draw_world(world: World, ax: Axes) -> None:
         Any.
     ax : matplotlib.axes.Axes
         Drawn on; its limits are set to hold the world and a rim around it.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The same axes.
     """
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path as Outline
@@ -60,10 +65,11 @@ def draw_world(world: World, ax: Axes) -> None:
     ax.set_xlabel("x in m")
     ax.set_ylabel("y in m")
     if world.name:
-        ax.set_title(world.name)
+        ax.set_title(world.name, parse_math=False)  # a name is not mathematics
     ax.tick_params(direction="out", length=3)
     for spine in ax.spines.values():
         spine.set_visible(False)
+    return ax
 
 
 def save_picture(path: str | PathLike[str], draw: Callable[[Axes], object]) -> None:
@@ -81,16 +87,7 @@ def save_picture(path: str | PathLike[str], draw: Callable[[Axes], object]) -> N
     InputError
         If the suffix is another one, or the file cannot be written.
     """
-
-    def fill(figure: Figure) -> None:
-        ax = figure.add_subplot()
-        draw(ax)
-        width = float(np.ptp(ax.get_xlim()))
-        height = float(np.ptp(ax.get_ylim()))
-        scale = (LONG_SIDE - 1.0) / max(width, height)
-        figure.set_size_inches(max(3, 1 + scale * width), max(3, 1 + scale * height))
-
-    save_figure(path, fill)
+    save_figure(path, lambda figure: _fill(figure, draw, LONG_SIDE))
 
 
 def save_figure(path: str | PathLike[str], fill: Callable[[Figure], None]) -> None:
@@ -109,12 +106,45 @@ def save_figure(path: str | PathLike[str], fill: Callable[[Figure], None]) -> No
         If the suffix is another one, or the file cannot be written.
     """
     check_picture(path)
-    suffix = Path(path).suffix.lower()
+    write_atomically(path, _render(fill, Path(path).suffix.lower()))
+
+
+def svg_of(draw: Callable[[Axes], object], side: float = LONG_SIDE) -> str:
+    """Return what a function draws as an SVG element, to be put into a page.
+
+    Parameters
+    ----------
+    draw : callable
+        Draws on the axes that it is given.
+    side : float
+        Length of the longer side, in inches.
+
+    Returns
+    -------
+    str
+        The same drawing gives the same text.
+    """
+    picture = _render(lambda figure: _fill(figure, draw, side), ".svg").decode()
+    return picture[picture.index("<svg") :]
+
+
+def _fill(figure: Figure, draw: Callable[[Axes], object], side: float) -> None:
+    """Draw on a figure and give it the shape of what was drawn."""
+    ax = figure.add_subplot()
+    draw(ax)
+    width = float(np.ptp(ax.get_xlim()))
+    height = float(np.ptp(ax.get_ylim()))
+    scale = (side - 1.0) / max(width, height)
+    figure.set_size_inches(max(3, 1 + scale * width), max(3, 1 + scale * height))
+
+
+def _render(fill: Callable[[Figure], None], suffix: str) -> bytes:
+    """Return a figure as a file; the same drawing gives the same bytes."""
     from matplotlib import rc_context
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    # The same drawing gives the same bytes: no date, no random ids.
+    # No date, no random ids.
     with rc_context({"svg.hashsalt": "topomap"}):
         figure = Figure(figsize=(LONG_SIDE, LONG_SIDE), layout="constrained")
         FigureCanvasAgg(figure)
@@ -122,7 +152,7 @@ def save_figure(path: str | PathLike[str], fill: Callable[[Figure], None]) -> No
         stamp = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}.get(suffix)
         picture = io.BytesIO()
         figure.savefig(picture, format=suffix[1:], dpi=150, metadata=stamp)
-    write_atomically(path, picture.getvalue())
+    return picture.getvalue()
 
 
 def check_picture(path: str | PathLike[str]) -> None:

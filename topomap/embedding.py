@@ -9,18 +9,29 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from topomap.errors import InputError
-from topomap.springs import solve_springs
+from topomap.springs import inverse_stiffness, solve_springs
 from topomap.topological_map import Edge, TopologicalMap, Vertex
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-__all__ = ["Embedding", "embed", "embedded", "placed"]
+__all__ = [
+    "Embedding",
+    "embed",
+    "embedded",
+    "joint_covariance",
+    "placed",
+    "spring_ways",
+]
 
 EXACT = 1e-4
 """Standard deviation, in metres, that stands in for an exact length."""
 SIDEWAYS = 1e-2
 """Standard deviation, in metres, of where a wall lies beside the robot."""
+LANDING = 0.1
+"""Standard deviation, in metres, of where an incursion meets its wall."""
+HEADING = 0.03
+"""Standard deviation, in radians, of the direction that an incursion took."""
 
 
 class Embedding(NamedTuple):
@@ -122,8 +133,53 @@ def placed(vertices: tuple[Vertex, ...], edges: tuple[Edge, ...]) -> tuple[Verte
     )
 
 
+def joint_covariance(chart: TopologicalMap) -> NDArray[np.float64]:
+    """Find how surely all vertices lie, and how their errors go together.
+
+    Parameters
+    ----------
+    chart : TopologicalMap
+        Of V vertices.
+
+    Returns
+    -------
+    ndarray, shape (2 V, 2 V)
+        Covariance of x and y of the first vertex, then of the second, and so on,
+        in square metres, relative to the first vertex of each connected part.
+
+    Notes
+    -----
+    The inverse of the stiffness of `embed`, column by column from its sparse
+    factors: O(V^2) for maps of buildings, some 10 ms for 200 vertices.
+    """
+    count = len(chart.vertices)
+    whole = np.zeros((2 * count, 2 * count))
+    edges = _measured(chart.edges)
+    if not edges:
+        return whole
+    index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
+    ends = np.array([(index[e.source], index[e.target]) for e in edges])
+    fixed, _ = _parts(count, ends)
+    _, weight = spring_ways(edges)
+    free = np.setdiff1d(np.arange(count), fixed)
+    place = np.full(count, -1)
+    place[free] = np.arange(len(free))
+    is_apart = np.abs(weight[:, 0, 1]).max() <= 1e-9 * weight.max()
+    for axes in ([0], [1]) if is_apart else ([0, 1],):
+        block = weight[:, axes][:, :, axes]
+        rows = (2 * free[:, None] + axes).ravel()
+        whole[np.ix_(rows, rows)] = inverse_stiffness(place[ends], block, len(free))
+    return whole
+
+
+def _measured(edges: tuple[Edge, ...]) -> tuple[Edge, ...]:
+    """Return the edges that were walked; a passive incursion was only seen."""
+    return tuple(edge for edge in edges if edge.kind != "passive")
+
+
 def _embed(vertices: tuple[Vertex, ...], edges: tuple[Edge, ...]) -> Embedding:
     count = len(vertices)
+    edges = _measured(edges)
     anchors = np.array([v.position or (0.0, 0.0) for v in vertices])
     if not edges:
         return Embedding(anchors.reshape(count, 2), np.zeros((count, 2, 2)))
@@ -134,19 +190,42 @@ def _embed(vertices: tuple[Vertex, ...], edges: tuple[Edge, ...]) -> Embedding:
     place = np.full(count, -1)
     place[free] = np.arange(len(free))
 
-    solution, blocks = solve_springs(place[ends], *_springs(edges), len(free))
+    solution, blocks = solve_springs(place[ends], *spring_ways(edges), len(free))
     positions, covariances = np.zeros((count, 2)), np.zeros((count, 2, 2))
     positions[free], covariances[free] = solution, blocks
     # Springs do not mind where they are: each part is moved to its anchor.
     return Embedding(positions + anchors[fixed][part], covariances)
 
 
-def _springs(
+def spring_ways(
     edges: tuple[Edge, ...],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return for each edge its way (E, 2) and its stiffness (E, 2, 2)."""
+    """Return the springs that edges are.
+
+    Parameters
+    ----------
+    edges : tuple of Edge
+        Straight ways.
+
+    Returns
+    -------
+    ways : ndarray, shape (E, 2)
+        From source to target in the map's frame, in metres.
+    stiffness : ndarray, shape (E, 2, 2)
+        Inverse covariance of each way.
+
+    Raises
+    ------
+    InputError
+        If an edge leaves its two ends in directions that are not opposite.
+    """
     rows = []
+    crossings = []
     for k, edge in enumerate(edges):
+        if edge.reach is not None:
+            crossings.append((k, *_crossing(edge, edge.reach)))
+            rows.append((0.0, 1.0, 1.0, 0.0))
+            continue
         opposite = math.remainder(
             edge.target_exit - edge.source_exit - math.pi, math.tau
         )
@@ -160,7 +239,7 @@ def _springs(
             )
         fused = edge.fused
         rows.append((edge.source_exit, fused.value, fused.sigma, edge.shift))
-    angle, length, sigma, shift = np.array(rows).T
+    angle, length, sigma, shift = np.array(rows).reshape(-1, 4).T
     c, s = np.cos(angle), np.sin(angle)
     way = np.column_stack([length * c - shift * s, length * s + shift * c])
     along = np.maximum(sigma, EXACT) ** -2.0
@@ -169,7 +248,30 @@ def _springs(
     weight[:, 0, 0] = along * c * c + across * s * s
     weight[:, 1, 1] = along * s * s + across * c * c
     weight[:, 0, 1] = weight[:, 1, 0] = (along - across) * c * s
+    for k, crossing, stiffness in crossings:
+        way[k], weight[k] = crossing, stiffness
     return way, weight
+
+
+def _crossing(
+    edge: Edge, reach: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the way of an incursion (2,), and how stiff it is (2, 2)."""
+    fused = edge.fused
+    ahead = np.array([math.cos(edge.source_exit), math.sin(edge.source_exit)])
+    along = -np.array([math.cos(edge.target_exit), math.sin(edge.target_exit)])
+    left, aside = np.array([-along[1], along[0]]), np.array([-ahead[1], ahead[0]])
+    rest = fused.value - reach
+    scale = fused.sigma / fused.value
+    spread = LANDING**2 * np.eye(2)
+    for direction, sigma in (
+        (ahead, scale * reach),
+        (aside, HEADING * reach),
+        (along, scale * rest),
+    ):
+        spread = spread + sigma**2 * np.outer(direction, direction)
+    stiffness = np.asarray(np.linalg.inv(spread), dtype=np.float64)
+    return reach * ahead + rest * along + edge.shift * left, stiffness
 
 
 def _parts(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from operator import itemgetter
 from typing import TYPE_CHECKING
 
+from behaviours.automaton import perform
+from behaviours.explore import EXPLORE, State
 from behaviours.follow_broken_wall import follow_broken_wall
 from behaviours.follow_hall import follow_hall
 from behaviours.follow_wall import Leg
@@ -21,6 +22,7 @@ from topomap.errors import JobError
 from topomap.recognition import Recognition, recognise
 
 if TYPE_CHECKING:
+    from behaviours.automaton import Actions, Path
     from behaviours.parameters import Parameters
     from behaviours.port import Behaviour
     from behaviours.ways import Ways
@@ -97,34 +99,66 @@ def explore_halls(
         does not have there.
     """
     found = Exploration(parameters, closer, sigma, max_walls)
-    yield from first_vertex(found)
-    while found.closed and found.walls < max_walls:
-        route = found.chart.nearest_unexplored(found.here)
-        if route is None:
-            return found
-        yield from goto(found, route[0])
-        yield from venture(found, route[1])
-    found.closed = False
+
+    def step_out(path: Path[State]) -> Behaviour[int]:
+        return _step_out(found, path[-1][1])
+
+    def place(path: Path[State]) -> Behaviour[bool]:
+        return _identify(found, path[-1][1])
+
+    actions: Actions[State] = {
+        State.LOOK: lambda _: _is_in_hall(parameters),
+        State.MTW: lambda _: move_to_wall(parameters),
+        State.WF: lambda _: _begin(found, follow_broken_wall(parameters, None)),
+        State.HF: lambda _: _begin(found, follow_hall(parameters)),
+        State.LOOP: lambda _: close_loop(found),
+        State.GOTO: lambda _: _goto_exit(found),
+        State.OUT: step_out,
+        State.PLACE: place,
+    }
+    yield from perform(EXPLORE, actions, State.LOOK)
     return found
 
 
-def first_vertex(found: Exploration) -> Behaviour[None]:
-    """Come to a first vertex, and close its base loop if it is on one."""
-    arrival = yield from _first_arrival(found.parameters)
+def _is_in_hall(parameters: Parameters) -> Behaviour[bool]:
+    """Go forward until a wall is in range; return whether a hall is around."""
+    outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
+    return outcome.readings.left + outcome.readings.right <= 2 * parameters.r0
+
+
+def _begin(found: Exploration, behaviour: Behaviour[Arrival]) -> Behaviour[None]:
+    """Come to the first vertex."""
+    arrival = yield from behaviour
     found.here = found.chart.add_place(Place(arrival.type, arrival.ways))
     found.heading = arrival.facing % 4
+
+
+def first_vertex(found: Exploration) -> Behaviour[None]:
+    """Come to the first vertex, and close its base loop if it is on one."""
+    parameters = found.parameters
+    if (yield from _is_in_hall(parameters)):
+        yield from _begin(found, follow_hall(parameters))
+    else:
+        yield from move_to_wall(parameters)
+        yield from _begin(found, follow_broken_wall(parameters, None))
     if is_open_loop(found.chart, found.here):
         yield from close_loop(found)
 
 
-def _first_arrival(parameters: Parameters) -> Behaviour[Arrival]:
-    """MTW and WF to the first vertex; HF where the robot finds itself in a hall."""
-    outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
-    width = outcome.readings.left + outcome.readings.right
-    if width > 2 * parameters.r0:
-        yield from move_to_wall(parameters)
-        return (yield from follow_broken_wall(parameters, None))
-    return (yield from follow_hall(parameters))
+def venture(found: Exploration, quarters: int) -> Behaviour[None]:
+    """Take an unexplored exit, and find out where it leads."""
+    there = yield from _step_out(found, quarters)
+    yield from _identify(found, there)
+
+
+def _goto_exit(found: Exploration) -> Behaviour[int | None]:
+    """GOTO: drive to the nearest unexplored exit, if any is left, and return it."""
+    target = found.chart.nearest_unexplored(found.here)
+    if target is None:
+        return None
+    vertex, quarters = target
+    yield from goto(found, vertex)
+    return quarters
 
 
 def _leave(
@@ -161,12 +195,6 @@ def go(found: Exploration, quarters: int) -> Behaviour[None]:
     found.here = there
 
 
-def venture(found: Exploration, quarters: int) -> Behaviour[None]:
-    """Take an unexplored exit, and find out where it leads."""
-    there = yield from _step_out(found, quarters)
-    yield from _identify(found, there)
-
-
 def _step_out(found: Exploration, quarters: int) -> Behaviour[int]:
     """Take an unexplored exit to a vertex that is new, until it is recognised."""
     chart, source = found.chart, found.here
@@ -180,40 +208,45 @@ def _step_out(found: Exploration, quarters: int) -> Behaviour[int]:
     return there
 
 
-def _identify(found: Exploration, vertex: int) -> Behaviour[None]:
-    """Find out whether a vertex is one met before, walking on where that is needed.
+def _identify(found: Exploration, vertex: int) -> Behaviour[bool]:
+    """Find out whether a vertex is one met before; return whether that is known.
 
     Where the evidence is too weak, the base loop is closed first, if there is one;
     then the robot takes ways that it knows, if the vertex is what it may be.
     """
     chart = found.chart
     unsure = [vertex]
-    while unsure and found.closed and found.walls < found.max_walls:
+    while unsure:
+        if found.walls >= found.max_walls:
+            found.closed = False
+        if not found.closed:
+            return False
         vertex = unsure[-1]
         if vertex not in chart.places:
             unsure.pop()
             continue
         recognition = recognise(chart, found.parameters, found.sigma, vertex)
         found.recognitions.append(recognition)
-        best, p = max(recognition.candidates, key=itemgetter(1), default=(None, 0.0))
-        if p < 1 - ERROR and recognition.new < 1 - ERROR:
-            step = _telling_way(chart, vertex, best)
+        if not recognition.is_sure(ERROR):
+            best, _ = recognition.candidates[0]
+            telling = _telling_way(chart, vertex, best)
             if is_open_loop(chart, vertex):
                 yield from goto(found, vertex)
                 yield from close_loop(found)
                 continue
-            if step is not None:
-                yield from goto(found, step[0])
-                unsure.insert(-1, (yield from _step_out(found, step[1])))
+            if telling is not None:
+                yield from goto(found, telling[0])
+                unsure.insert(-1, (yield from _step_out(found, telling[1])))
                 continue
         unsure.pop()
-        if p > recognition.new:
-            pairs = chart.pairs(vertex, best)
+        if recognition.known is not None:
+            pairs = chart.pairs(vertex, recognition.known) or {}
             chart.join(pairs)
             found.here = pairs.get(found.here, found.here)
         elif is_open_loop(chart, vertex):
             yield from goto(found, vertex)
             yield from close_loop(found)
+    return found.closed
 
 
 def goto(found: Exploration, vertex: int) -> Behaviour[None]:
@@ -240,7 +273,7 @@ def _telling_way(chart: Chart, vertex: int, other: int) -> tuple[int, int] | Non
     return None
 
 
-def close_loop(found: Exploration) -> Behaviour[None]:
+def close_loop(found: Exploration) -> Behaviour[bool]:
     """Walk along the wall, the wall on the right, until the loop is closed."""
     places = [found.chart.places[found.here]]
     arrivals: list[Arrival] = []
@@ -260,6 +293,7 @@ def close_loop(found: Exploration) -> Behaviour[None]:
     legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
     found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
     _fold(found, places, arrivals, period or len(places))
+    return found.closed
 
 
 def _corner(place: Place) -> tuple[str, float]:

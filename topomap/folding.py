@@ -16,7 +16,11 @@ if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from topomap.boundary import Walk
 
-__all__ = ["fold"]
+__all__ = ["FARTHEST", "fold"]
+
+FARTHEST = 0.8
+"""What lies farther beside the robot is not kept, in metres: cheap infrared rangers
+see no farther, and an exact body shall know no more than they."""
 
 
 def fold(walk: Walk, parameters: Parameters, sigma: float) -> TopologicalMap:
@@ -78,7 +82,25 @@ def _edge(
         lengths=tuple(Length(leg.length, sigma * mean) for leg in legs),
         shift=sum(leg.shift for leg in legs) / len(legs),
         clearance=clearance if math.isfinite(clearance) else None,
+        widths=_widths(legs[-1], mean),
     )
+
+
+def _widths(leg: Leg, length: float) -> tuple[tuple[float, float], ...]:
+    """Return what was seen beside one walk of a wall, as of a wall of some length.
+
+    Pieces as wide as the one before are one piece.
+    """
+    if not leg.widths or leg.length <= 0:
+        return ()
+    scale = length / leg.length
+    found: list[tuple[float, float]] = []
+    for until, width in leg.widths:
+        width = round(min(width, FARTHEST), 3)
+        if found and found[-1][1] == width:
+            found.pop()
+        found.append((round(until * scale, 4), width))
+    return tuple(found)
 
 
 def _open_exits(

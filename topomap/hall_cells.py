@@ -12,7 +12,7 @@ from scipy import ndimage
 from worlds.errors import WorldError
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from numpy.typing import NDArray
 
@@ -147,7 +147,7 @@ def _lines(
 
 
 def _inside(
-    area: shapely.Geometry, middles: list[NDArray[np.float64]]
+    area: shapely.Geometry, middles: Sequence[NDArray[np.float64]]
 ) -> NDArray[np.bool_]:
     shapely.prepare(area)
     return np.asarray(shapely.contains_xy(area, *middles))
@@ -174,11 +174,11 @@ def _rectangles(
 ) -> Iterator[tuple[float, float, float, float]]:
     """Yield the box of each junction; halls of unequal width may ruffle its rim."""
     for number, (rows, columns) in enumerate(ndimage.find_objects(numbers), start=1):
-        inner = np.ix_(
-            _well_inside(xs, rows, slack), _well_inside(ys, columns, slack)
-        )
+        inner = np.ix_(_well_inside(xs, rows, slack), _well_inside(ys, columns, slack))
         if not (numbers[rows, columns] == number)[inner].all():
-            raise _intricate(xs, ys, numbers == number, "a junction that is no rectangle")
+            raise _intricate(
+                xs, ys, numbers == number, "a junction that is no rectangle"
+            )
         yield (
             float(xs[rows.start]),
             float(ys[columns.start]),
@@ -192,7 +192,7 @@ def _well_inside(
 ) -> NDArray[np.bool_]:
     """Return which cells of a part are farther than `slack` from both of its ends."""
     low, high = lines[part], lines[part.start + 1 : part.stop + 1]
-    return (low >= low[0] + slack) & (high <= high[-1] - slack)
+    return np.asarray((low >= low[0] + slack) & (high <= high[-1] - slack))
 
 
 def _stretches(
@@ -243,7 +243,11 @@ def _stretches(
 def _end(kinds: NDArray[np.int64], run: tuple[int, int, int], step: int) -> End:
     """Return what lies beside a run."""
     k, start, stop = run
-    beside = set(kinds[k + step, start:stop].tolist()) if 0 <= k + step < len(kinds) else set()
+    beside = (
+        set(kinds[k + step, start:stop].tolist())
+        if 0 <= k + step < len(kinds)
+        else set()
+    )
     beside -= {-2, -3}
     if not beside:
         return Wall()
@@ -253,7 +257,10 @@ def _end(kinds: NDArray[np.int64], run: tuple[int, int, int], step: int) -> End:
 
 
 def _intricate(
-    xs: NDArray[np.float64], ys: NDArray[np.float64], cells: NDArray[np.bool_], what: str
+    xs: NDArray[np.float64],
+    ys: NDArray[np.float64],
+    cells: NDArray[np.bool_],
+    what: str,
 ) -> WorldError:
     i, j = np.argwhere(cells)[0]
     x, y = (xs[i] + xs[i + 1]) / 2, (ys[j] + ys[j + 1]) / 2

@@ -9,7 +9,7 @@ import networkx as nx
 import shapely
 
 from behaviours.vertices import VertexType
-from topomap import hall_cells
+from topomap.hall_cells import Junction, Wall
 from topomap.headings import AHEAD, angle_of
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 from worlds.errors import WorldError
@@ -85,7 +85,6 @@ class Drawing:
         )
         edges = tuple(edge for edge in self.edges if edge.source in part)
         return TopologicalMap(vertices, edges, self.parameters)
-
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,7 +183,7 @@ def _sides(parts: HallParts) -> list[dict[int, tuple[int, int]]]:
     for n, stretch in enumerate(parts.stretches):
         for end in (0, 1):
             at = stretch.ends[end]
-            if isinstance(at, hall_cells.Junction):
+            if isinstance(at, Junction):
                 side = (_Terminal(stretch, end).outward + 2) % 4
                 if side in sides[at.number]:
                     x, y = _Terminal(stretch, end).place()
@@ -223,14 +222,14 @@ def _draw_junction(
 
 def _passes(end: End, numbers: list[int | None]) -> bool:
     """Return whether a hall only goes on at one of its ends."""
-    return isinstance(end, hall_cells.Junction) and numbers[end.number] is None
+    return isinstance(end, Junction) and numbers[end.number] is None
 
 
 def _is_pocket(stretch: Stretch, exits: list[set[int]]) -> bool:
     """Return whether a stretch is too short for a hall: nothing leads into it."""
     for end in (0, 1):
         at = stretch.ends[end]
-        if isinstance(at, hall_cells.Junction):
+        if isinstance(at, Junction):
             side = (_Terminal(stretch, end).outward + 2) % 4
             if side not in exits[at.number]:
                 return True
@@ -247,7 +246,7 @@ def _follow(
     """Go along a hall from one end of it to the other; return that stretch and end."""
     while True:
         far = parts.stretches[stretch].ends[1 - end]
-        if not _passes(far, numbers):
+        if not isinstance(far, Junction) or not _passes(far, numbers):
             return stretch, 1 - end
         onward = _Terminal(parts.stretches[stretch], 1 - end).outward
         stretch, end = sides[far.number][onward]
@@ -262,9 +261,9 @@ def _draw_end(
     """Return the vertex at the end of a hall, added if it is new."""
     end = terminal.stretch.ends[terminal.end]
     inward = (terminal.outward + 2) % 4
-    if isinstance(end, hall_cells.Junction):
-        return numbers[end.number]
-    if isinstance(end, hall_cells.Wall):
+    if isinstance(end, Junction) and (number := numbers[end.number]) is not None:
+        return number
+    if isinstance(end, Wall):
         place = terminal.place(drawing.parameters.r_min)
         return drawing.add(VertexType.TERM, [inward], place)
     place = terminal.place()

@@ -64,9 +64,7 @@ class _Corner:
         return (self.leaving - self.arriving) % 4 == 1
 
 
-def true_hall_maps(
-    world: World, parameters: Parameters
-) -> tuple[TopologicalMap, ...]:
+def true_hall_maps(world: World, parameters: Parameters) -> tuple[TopologicalMap, ...]:
     """Find the true maps of a world that has halls.
 
     Parameters
@@ -140,7 +138,9 @@ def _moved(area: shapely.Geometry, way: float) -> shapely.Geometry:
 def _rings(area: shapely.Geometry) -> Iterator[list[tuple[float, float]]]:
     """Yield all rings of an area, the area on their left."""
     for part in shapely.get_parts(area):
-        part = orient(shapely.normalize(part.simplify(0)))
+        if part.is_empty:
+            continue
+        part = orient(part.simplify(0))
         for ring in (part.exterior, *part.interiors):
             yield list(ring.coords)[:-1]
 
@@ -161,7 +161,9 @@ def _loop(ring: list[tuple[float, float]], parameters: Parameters) -> list[_Corn
     return loop
 
 
-def _attach(mouth: Mouth, loops: list[list[_Corner]], parameters: Parameters) -> _Corner:
+def _attach(
+    mouth: Mouth, loops: list[list[_Corner]], parameters: Parameters
+) -> _Corner:
     """Find the vertex of a base loop that a hall opens at, or put one there."""
     r0 = parameters.r0
     heading = (mouth.out - 1) % 4

@@ -26,6 +26,8 @@ COLOUR = {
     VertexType.SPLIT: "#762a83",
     VertexType.TERM: "#222222",
 }
+WALLS = {"base": "#444444", "island": "#b35806"}
+"""Of ways along walls, by their kind."""
 MARKER = {
     VertexType.INT: "o",
     VertexType.EXT: "s",
@@ -49,6 +51,10 @@ def draw_map(
     ellipses: bool = True,
 ) -> Axes:
     """Draw a map into axes of equal scale.
+
+    Ways along the walls of the base map and of islands, passive and active
+    incursions are told apart, with the space they are known to cross, as in [K]
+    figure 5.6.
 
     Parameters
     ----------
@@ -77,8 +83,21 @@ def draw_map(
         vertex.id: turn @ np.array(vertex.position) + offset
         for vertex in chart.vertices
     }
-    ways = [(places[edge.source], places[edge.target]) for edge in chart.edges]
-    ax.add_collection(LineCollection(ways, colors="#444444", linewidths=1.2, zorder=2))
+    for kind, colour in WALLS.items():
+        ways = [
+            (places[edge.source], places[edge.target])
+            for edge in chart.edges
+            if edge.kind == kind
+        ]
+        label = "wall of an island" if ways and kind == "island" else None
+        ax.add_collection(
+            LineCollection(ways, colors=colour, linewidths=1.2, label=label, zorder=2)
+        )
+    if any(edge.is_incursion for edge in chart.edges):
+        from topomap.incursions.drawing import draw_incursions, draw_known_space
+
+        draw_known_space(chart, ax, turn, offset)
+        draw_incursions(chart, ax, turn, offset)
     if ellipses:
         _draw_ellipses(chart, ax, places, turn)
     _draw_unexplored(chart, ax, places, rotation)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from behaviours.automaton import UnforeseenError
 from behaviours.port import run
 from behaviours.vertices import VertexType
-from topomap.bodies import body_parameters, make_body
+from topomap.bodies import body_drift, body_parameters, make_body
 from topomap.boundary import Walk, map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
@@ -17,6 +18,8 @@ from topomap.embedding import embedded
 from topomap.errors import InputError, JobError
 from topomap.exploring import explore_halls
 from topomap.folding import fold
+from topomap.incursions.improving import IMPROVEMENTS, Improvement, improve_map
+from topomap.parts import compare_wholes, in_one
 from topomap.truth import true_maps
 from worlds.fit import is_open
 from worlds.starts import check_start, choose_start
@@ -46,11 +49,11 @@ class Build:
     """A map that a robot built, and what it took."""
 
     map: TopologicalMap
-    """Of the closed loop; of the open walk where no closure was found."""
+    """Of the closed loop, improved; of the open walk where no closure was found."""
     closed: bool
     """Whether the robot decided that it had come round."""
     comparison: Comparison
-    """With the world's truth."""
+    """With the world's truth: of one loop; of all loops with active incursions."""
     loops: tuple[Walk, ...]
     """Every base loop as it was walked, and what was made of each wall."""
     recognitions: tuple[Recognition, ...]
@@ -65,6 +68,8 @@ class Build:
     """Time in the robot's world, in seconds."""
     collisions: int
     """How often the body began to touch something."""
+    improvement: Improvement | None = None
+    """What was done to the base map; None where its loop stayed open."""
 
     @property
     def correct(self) -> bool:
@@ -88,6 +93,24 @@ class Build:
         return len(closures) + len(recognised)
 
     @property
+    def error_probability(self) -> float:
+        """Probability, by the robot's own account, that the map is wrong somewhere.
+
+        The sum over all loops and over all vertices that may have been earlier ones.
+        """
+        last = {found.vertex: found.doubt for found in self.recognitions}
+        loops = (walk.decisions[-1] for walk in self.loops if walk.decisions)
+        total = sum(last.values()) + sum(loop.error_probability for loop in loops)
+        return min(1.0, total)
+
+    @property
+    def reason(self) -> str:
+        """Why the loop that is least sure was closed, or is open."""
+        decided = [walk.decisions[-1] for walk in self.loops if walk.decisions]
+        worst = max(decided, key=lambda d: (d.period is None, d.error_probability))
+        return worst.reason
+
+    @property
     def walk(self) -> Walk:
         """The base loop that was walked first; an empty one if there is none."""
         return self.loops[0] if self.loops else Walk(VertexType.TERM, (), ())
@@ -103,6 +126,8 @@ def build_map(
     parameters: Parameters | None = None,
     closing: str | LoopCloser = "likelihood",
     max_walls: int = MAX_WALLS,
+    watch: Callable[[Body], Body] | None = None,
+    improve: str = "none",
 ) -> Build:
     """Set a robot down in a world and let it map all it can reach along walls.
 
@@ -127,6 +152,12 @@ def build_map(
         `topomap.closers.CLOSINGS`.
     max_walls : int
         The loop is given up as open after so many walls.
+    watch : callable, optional
+        Given the body before it moves; what it returns is used in its place. So a
+        recorder can look on, as `topomap.page.BuildRecorder` does.
+    improve : {"none", "passive", "active"}
+        What is done to the closed base map: incursions through space that was seen,
+        or driven ones too, which find the islands; see `topomap.incursions`.
 
     Returns
     -------
@@ -160,6 +191,8 @@ def build_map(
     """
     if not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
         raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
+    if improve not in IMPROVEMENTS:
+        raise InputError("", "improve", improve, f"one of {', '.join(IMPROVEMENTS)}")
     if max_walls < 1:
         raise InputError("", "max_walls", max_walls, "a number of at least 1")
     start_rng, body_rng = rng.spawn(2)
@@ -169,20 +202,42 @@ def build_map(
         start = choose_start(world, parameters, start_rng)
     check_start(world, parameters, start)
     robot = make_body(body, world, start, body_rng, sigma=sigma, parameters=parameters)
+    if watch is not None:
+        robot = watch(robot)
     closer = (
         make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
     )
-    explore = _explore_open if is_open(world, parameters) else _explore_halls
+    has_halls = not is_open(world, parameters)
+    if has_halls and improve != "none":
+        expected = "none: incursions are for worlds without halls"
+        raise InputError("", "improve", improve, expected)
+    explore = _explore_halls if has_halls else _explore_open
     try:
         found = explore(robot, closer, sigma, max_walls)
     except UnforeseenError as error:
         raise JobError(str(error)) from error
+    improvement = None
+    if found["closed"] and not has_halls:
+        (walk,) = found["loops"]
+        name = closing if isinstance(closing, str) else "likelihood"
+        improvement = improve_map(
+            found["map"],
+            improve,
+            body_drift(body, sigma),
+            body=robot,
+            vertex=len(walk.legs) % walk.period,
+            make_closer=lambda: make_closer(name, sigma, parameters),
+        )
+        found["map"] = improvement.map
     return Build(
-        comparison=compare_maps(found["map"], *truth),
+        comparison=compare_wholes(found["map"], in_one(truth))
+        if improve == "active"
+        else compare_maps(found["map"], *truth),
         start=start,
         travelled=robot.travelled,
         simulated=robot.clock,
         collisions=robot.collisions,
+        improvement=improvement,
         **found,
     )
 

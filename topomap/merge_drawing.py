@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from topomap.merging import Merge
     from topomap.topological_map import TopologicalMap
 
-__all__ = ["draw_merge"]
+__all__ = ["draw_merge", "draw_overlay"]
 
 COLOURS = "#2166ac", "#b2182b", "#1b7837", "#762a83", "#e08214", "#35978f"
 """Of the maps, in turn."""
@@ -44,23 +44,45 @@ def draw_merge(found: Merge, maps: Sequence[TopologicalMap], figure: Figure) -> 
     figure : matplotlib.figure.Figure
         Empty; filled.
     """
-    graphs = [to_graph(chart) for chart in maps]
-    places = [embed(graph) for graph in graphs]
-    moves: list[RigidTransform | None] = [RigidTransform(), *found.transforms]
-    only = found.fleet.links[0] if len(maps) == 2 else None
-    if only is not None and moves[1] is None and only.match.transform is not None:
-        best = only.match.transform
-        moves[1] = best if only.a == 0 else best.inverse()
+    only = _only_link(found, maps)
     single = min(len(maps), APART)
     figure.set_size_inches(10, 10)
     grid = figure.add_gridspec(2, single, height_ratios=(1, 2))
     for k in range(single):
         ax = figure.add_subplot(grid[0, k])
-        _draw_graph(ax, graphs[k], places[k], COLOURS[k % len(COLOURS)])
+        graph = to_graph(maps[k])
+        places = embed(graph)
+        _draw_graph(ax, graph, places, COLOURS[k % len(COLOURS)])
         if only is not None:
-            _mark(ax, places[k], only, k)
+            _mark(ax, places, only, k)
         _finish(ax, f"map {k + 1}")
-    ax = figure.add_subplot(grid[1, :])
+    draw_overlay(found, maps, figure.add_subplot(grid[1, :]))
+
+
+def draw_overlay(found: Merge, maps: Sequence[TopologicalMap], ax: Axes) -> Axes:
+    """Draw maps laid over each other by what was found.
+
+    Parameters
+    ----------
+    found : Merge
+        Accepted or refused; of a refused merge of two maps the best overlay is drawn.
+    maps : sequence of TopologicalMap
+        What was merged, in order.
+    ax : matplotlib.axes.Axes
+        Drawn into, in the first map's frame.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+        The same axes.
+    """
+    graphs = [to_graph(chart) for chart in maps]
+    places = [embed(graph) for graph in graphs]
+    only = _only_link(found, maps)
+    moves: list[RigidTransform | None] = [RigidTransform(), *found.transforms]
+    if only is not None and moves[1] is None and only.match.transform is not None:
+        best = only.match.transform
+        moves[1] = best if only.a == 0 else best.inverse()
     for k, move in enumerate(moves):
         if move is not None:
             _draw_graph(ax, graphs[k], move(places[k]), COLOURS[k % len(COLOURS)])
@@ -71,6 +93,12 @@ def draw_merge(found: Merge, maps: Sequence[TopologicalMap], figure: Figure) -> 
     wrong = found.false_merge_probability
     title = "accepted" if found.accepted else "refused"
     _finish(ax, f"{title}: wrong with probability {wrong:.2g}")
+    return ax
+
+
+def _only_link(found: Merge, maps: Sequence[TopologicalMap]) -> Link | None:
+    """Return how the maps lie if there are just two."""
+    return found.fleet.links[0] if len(maps) == 2 else None
 
 
 def _draw_graph(ax: Axes, graph: Graph, at: NDArray[np.float64], colour: str) -> None:

@@ -17,6 +17,7 @@ from merge.options import Options
 from merge.rigid import RigidTransform, register_rigid
 from topomap.embedding import EXACT
 from topomap.errors import InputError
+from topomap.parts import base_map
 from topomap.topological_map import (
     Edge,
     Length,
@@ -85,7 +86,8 @@ def merge_maps(
     Parameters
     ----------
     maps : sequence of TopologicalMap, at least 2
-        Any rotation, any overlap. The result is in the frame of the first.
+        Any rotation, any overlap. The result is in the frame of the first. Their
+        incursions, and islands that only incursions lead to, are left out.
     options : merge.options.Options, optional
         How strict to be.
     force : bool
@@ -117,6 +119,7 @@ def merge_maps(
                 f"maps[{k}]", "vertices", len(chart.vertices), "at least two vertices"
             )
     options = options or Options()
+    maps = [base_map(chart) for chart in maps]
     graphs = [to_graph(chart) for chart in maps]
     fleet = merge_fleet(graphs, options, mapper)
     group = next(group for group in fleet.groups if 0 in group.members)

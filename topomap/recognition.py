@@ -38,6 +38,23 @@ class Recognition:
     """Earlier vertices that it may be, with their probabilities, best first."""
 
     @property
+    def known(self) -> int | None:
+        """The vertex that it most likely is; None for a new one."""
+        if self.candidates and self.candidates[0][1] > self.new:
+            return self.candidates[0][0]
+        return None
+
+    def is_sure(self, error: float) -> bool:
+        """Return whether `known` is wrong with a probability below `error`."""
+        return self.doubt < error
+
+    @property
+    def doubt(self) -> float:
+        """Probability that `known` is wrong."""
+        best = self.candidates[0][1] if self.candidates else 0.0
+        return 1.0 - max(best, self.new)
+
+    @property
     def new(self) -> float:
         """Probability that it is none of them."""
         return max(0.0, 1.0 - sum(p for _, p in self.candidates))
@@ -92,8 +109,12 @@ def recognise(
     lengths = np.array([link.length for link in chart.each_link()])
     weights = {}
     for x, pairs in found.items():
-        position = _log_position(at[x], spread[x], density, _apart(parameters, at, pairs))
-        shape = sum(_log_shape(*links, sigma, lengths) for links in _common(chart, pairs))
+        position = _log_position(
+            at[x], spread[x], density, _apart(parameters, at, pairs)
+        )
+        shape = sum(
+            _log_shape(*links, sigma, lengths) for links in _common(chart, pairs)
+        )
         weights[x] = position - np.logaddexp(
             math.log(COPIES), math.log1p(-COPIES) - shape
         )
@@ -156,13 +177,19 @@ def _common(chart: Chart, pairs: dict[int, int]) -> Iterator[tuple[Link, Link]]:
     """Yield the two links of each edge that has been walked from both places."""
     for a, b in pairs.items():
         for quarters in range(4):
-            first, second = chart.links.get((a, quarters)), chart.links.get((b, quarters))
+            first, second = (
+                chart.links.get((a, quarters)),
+                chart.links.get((b, quarters)),
+            )
             if (
                 first is not None
                 and second is not None
                 and first is not second
                 and first.behaviour != "ENTER"
-                and (first.ends[0] == (a, quarters) or first.beyond((a, quarters))[0] not in pairs)
+                and (
+                    first.ends[0] == (a, quarters)
+                    or first.beyond((a, quarters))[0] not in pairs
+                )
             ):
                 yield first, second
 

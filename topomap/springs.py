@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.sparse import csr_array, sparray
 
-__all__ = ["solve_springs"]
+__all__ = ["inverse_stiffness", "solve_springs"]
 
 DENSE = 40
 """Up to so many free places the stiffness is inverted as a dense matrix."""
@@ -53,6 +53,40 @@ def solve_springs(
             ends, way[:, axis], weight[:, axis, axis], size
         )
     return places, covariances
+
+
+def inverse_stiffness(
+    ends: NDArray[np.int64], weight: NDArray[np.float64], size: int
+) -> NDArray[np.float64]:
+    """Find the joint covariance of all places that springs hold.
+
+    Parameters
+    ----------
+    ends : ndarray of int, shape (E, 2)
+        As of `solve_springs`.
+    weight : ndarray, shape (E, D, D)
+        Stiffness of each spring in D dimensions.
+    size : int
+        How many free places there are.
+
+    Returns
+    -------
+    ndarray, shape (D size, D size)
+        In the order of the places, all dimensions of the first one first.
+    """
+    from scipy.sparse import block_diag, diags_array, eye_array, kron
+    from scipy.sparse.linalg import splu
+
+    width = weight.shape[1]
+    difference = _differences(ends, size)
+    if width == 1:
+        stiffness = diags_array(weight[:, 0, 0])
+    else:
+        difference = kron(difference, eye_array(width), format="csr")
+        stiffness = block_diag(weight, format="csr")
+    factor = splu((difference.T @ stiffness @ difference).tocsc())
+    inverse: NDArray[np.float64] = factor.solve(np.eye(width * size))
+    return inverse
 
 
 def _solve_axis(

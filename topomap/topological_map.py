@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from behaviours.parameters import Parameters
 from behaviours.vertices import VertexType
@@ -17,6 +18,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Edge", "Length", "TopologicalMap", "Vertex", "same_direction"]
 
+KINDS = "base", "island", "passive", "active"
+INCURSIONS = "passive", "active"
 ANGLE_TOLERANCE = math.radians(1.0)
 """Exits whose directions differ by less are one exit."""
 
@@ -64,6 +67,22 @@ class Edge:
     """Way to the left, seen from the source, at ill-defined corners; in metres."""
     clearance: float | None = None
     """Least free width seen beside the robot on the way, in metres."""
+    kind: str = "base"
+    """How it came into the map: ``base``; ``island``, along the walls of an island
+    found later; ``passive`` or ``active``, an incursion, which leads one way only."""
+    sureness: float = 1.0
+    """Probability that a robot that takes it arrives at its target."""
+    reach: float | None = None
+    """Straight part of an incursion up to the wall, in metres."""
+    widths: tuple[tuple[float, float], ...] = ()
+    """Clearance profile: pieces of the way from the source, where each ends and the
+    least free width on its left, in metres, as far as the sensors reach; of the
+    straight part of an incursion, the least to either side."""
+
+    @property
+    def is_incursion(self) -> bool:
+        """Whether it crosses open space, from its source to its target only."""
+        return self.kind in INCURSIONS
 
     @property
     def fused(self) -> Length:
@@ -127,7 +146,8 @@ class TopologicalMap:
         """The map as a networkx multigraph; edge and vertex values as attributes.
 
         Nodes are vertex ids with the attribute `vertex`; edges have the
-        attribute `edge` and, for shortest paths, `length` in metres.
+        attribute `edge` and, for shortest paths, `length` in metres. Incursions,
+        which lead one way only, are left out: `topomap.routes` has them.
         """
         import networkx as nx
 
@@ -136,6 +156,7 @@ class TopologicalMap:
         graph.add_edges_from(
             (e.source, e.target, {"edge": e, "length": e.fused.value})
             for e in self.edges
+            if not e.is_incursion
         )
         return graph
 
@@ -143,6 +164,19 @@ class TopologicalMap:
     def unexplored_exits(self) -> int:
         """How many exits no edge has been walked through."""
         return sum(len(vertex.unexplored) for vertex in self.vertices)
+
+    def _repr_svg_(self) -> str:
+        """Return the picture that a notebook shows."""
+        return str(_notebook().svg_of_map(self))
+
+    def _repr_html_(self) -> str:
+        """Return the picture and a line about it, for a notebook."""
+        return str(_notebook().html_of_map(self))
+
+
+def _notebook() -> Any:
+    """Return the room of pictures, by name: a map does not depend on its picture."""
+    return import_module("topomap.notebook")
 
 
 def same_direction(a: float, b: float, tolerance: float = ANGLE_TOLERANCE) -> bool:
@@ -163,12 +197,17 @@ def _faults(chart: TopologicalMap) -> Iterator[InputError]:
     used: dict[int, list[float]] = {vertex.id: [] for vertex in chart.vertices}
     for k, edge in enumerate(chart.edges):
         yield from _length_faults(edge, k)
+        yield from _incursion_faults(edge, k)
         for end, vertex_id, direction in (
             ("source", edge.source, edge.source_exit),
             ("target", edge.target, edge.target_exit),
         ):
             if vertex_id not in by_id:
                 yield InputError("", f"edges[{k}].{end}", vertex_id, "a vertex's id")
+            elif edge.is_incursion:
+                if not math.isfinite(direction):
+                    place = f"edges[{k}].{end}_exit_deg"
+                    yield _angle_error(place, direction, "a finite angle")
             elif expected := _misused(direction, by_id[vertex_id], used[vertex_id]):
                 yield _angle_error(f"edges[{k}].{end}_exit_deg", direction, expected)
             else:
@@ -234,6 +273,25 @@ def _length_faults(edge: Edge, index: int) -> Iterator[InputError]:
             yield InputError("", place, length.sigma, "a finite length, not negative")
     if not math.isfinite(edge.shift):
         yield InputError("", f"edges[{index}].shift", edge.shift, "a finite length")
+
+
+def _incursion_faults(edge: Edge, index: int) -> Iterator[InputError]:
+    if edge.kind not in KINDS:
+        expected = f"one of {', '.join(KINDS)}"
+        yield InputError("", f"edges[{index}].kind", edge.kind, expected)
+    if not 0 <= edge.sureness <= 1:
+        place = f"edges[{index}].sureness"
+        yield InputError("", place, edge.sureness, "a probability")
+    if edge.is_incursion != (edge.reach is not None):
+        expected = "metres for an incursion, and for no other edge"
+        yield InputError("", f"edges[{index}].reach", edge.reach, expected)
+    elif edge.reach is not None and not 0 < edge.reach < math.inf:
+        place = f"edges[{index}].reach"
+        yield InputError("", place, edge.reach, "a finite length above 0")
+    for k, (until, width) in enumerate(edge.widths):
+        if not (math.isfinite(until) and 0 <= width < math.inf):
+            place = f"edges[{index}].widths[{k}]"
+            yield InputError("", place, (until, width), "two finite lengths")
 
 
 def _angle_error(field: str, direction: float, expected: str) -> InputError:

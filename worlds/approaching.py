@@ -164,11 +164,11 @@ class _Search:
             for side in self._sides
         ]
         ranges = max(columns, key=lambda column: _jump(column, k))
+        if self._until is Until.LOST:
+            places, ranges, k = places[::-1], ranges[::-1], len(ranges) - k
         like = LIKE * robot.parameters.r0
-        if self._until is not Until.LOST:
-            return max(edge(places, ranges, k, robot.spot, like), self.start)
-        back = edge(places[::-1], ranges[::-1], len(ranges) - k, robot.spot, like)
-        return max(back, self.start)
+        place = edge(places, ranges, k, spot=robot.spot, slide=robot.slide, like=like)
+        return max(place, self.start)
 
 
 def _jump(ranges: Sequence[float], k: int) -> float:

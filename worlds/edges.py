@@ -15,8 +15,6 @@ __all__ = ["CONFIRM", "Glance", "edge"]
 
 CONFIRM = 3
 """So many readings in a row make it sure that a wall is there, or is not."""
-FAR_ON = 6
-"""So many readings off the edge show what is behind it."""
 LIKE = 0.1
 """Readings that differ by less, in parts of r0, are of one wall."""
 
@@ -33,7 +31,13 @@ class Glance:
 
 
 def edge(
-    places: Sequence[float], ranges: Sequence[float], k: int, spot: float, like: float
+    places: Sequence[float],
+    ranges: Sequence[float],
+    k: int,
+    *,
+    spot: float,
+    slide: float,
+    like: float,
 ) -> float:
     """Return where a wall begins that is in range from reading k on.
 
@@ -46,6 +50,8 @@ def edge(
         The first reading that counts as one of the wall.
     spot : float
         Half the width of the spot of light, in parts of the range.
+    slide : float
+        Farthest, in metres, before the edge that a ray meets the wall's end face.
     like : float
         Readings that differ by less, in metres, are of one wall.
 
@@ -64,13 +70,16 @@ def edge(
     A wall 30 cm away, before nothing; the spot's rim, 1.5 cm ahead, meets it first:
 
     >>> places = [0.00, 0.01, 0.02, 0.03, 0.04]
-    >>> round(edge(places, [math.inf] * 2 + [0.3] * 3, 2, 0.05, 0.03), 3)
+    >>> ranges = [math.inf, math.inf, 0.3, 0.3, 0.3]
+    >>> round(edge(places, ranges, 2, spot=0.05, slide=0.04, like=0.03), 3)
     0.03
     """
     near = sorted(ranges[k + 1 : k + 1 + CONFIRM] or ranges[k:])
     wall = near[len(near) // 2]
+    gaps = [abs(place - places[k]) for place in places[:k]]
     behind = sorted(
-        ranges[max(k - FAR_ON, 0) : max(k - CONFIRM, 0)] or ranges[: k or 1]
+        [r for gap, r in zip(gaps, ranges, strict=False) if slide <= gap <= 2 * slide]
+        or ranges[: max(k // 2, 1)]
     )
     background = behind[len(behind) // 2]
     if background == math.inf:

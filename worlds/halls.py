@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from statistics import median
 
 from behaviours.port import Centre, Follow, Outcome, Reason, Side
 from worlds.robot import Robot
 from worlds.straight import NEAR, Control, go, hold, keep_off, pace, settle, stop
-from worlds.turning import quarter
+from worlds.turning import spin
 from worlds.wall_track import WallTrack
 
 __all__ = ["centre", "follow_hall"]
@@ -16,13 +17,15 @@ MIDDLE = 1 / 15
 """A robot nearer to the middle than this, in parts of r0, is left to following."""
 OFF = 1 / 6
 """A robot farther from the middle than this, in parts of r0, has to be centred."""
+SLANT = math.radians(45)
+"""Angle, against the hall, at which the robot goes sideways."""
 LOOKS = 4
 """Answers of the side rangers that tell how wide the hall is."""
 DOUBT = 0.3
 """Most that a heading may be in doubt, in radians, to follow."""
 
 
-def centre(robot: Robot, primitive: Centre) -> Control[Outcome]:
+def centre(robot: Robot, _primitive: Centre) -> Control[Outcome]:
     """Stand in the middle of the hall.
 
     The robot turns, goes sideways by what it is off, and turns back: no way along
@@ -37,28 +40,38 @@ def centre(robot: Robot, primitive: Centre) -> Control[Outcome]:
     shift = (left - right) / 2 + robot.side_lead * math.sin(robot.lean)
     if abs(shift) < MIDDLE * r0:
         return Outcome(0.0, Reason.DONE, robot.readings())
-    side = Side.LEFT if shift > 0 else Side.RIGHT
-    memory = list(robot.trace)
-    yield from quarter(robot, side)
-    start = robot.odometer
-    yield from go(robot, abs(shift), keep=robot.parameters.r_min)
-    gone = robot.odometer - start
-    yield from quarter(robot, side.opposite)
-    robot.recall(memory, side.value * gone)
+    yield from _sidle(robot, shift)
     yield from settle(robot)
-    shift = side.value * gone
     return Outcome(0.0, Reason.DONE, robot.readings(), shift=shift)
+
+
+def _sidle(robot: Robot, shift: float) -> Control[None]:
+    """Go sideways: ahead aslant, and back straight.
+
+    What a turn gets wrong, the turn back undoes.
+    """
+    memory, before = list(robot.trace), robot.odometer
+    slant = math.copysign(SLANT, shift)
+    yield from spin(robot, slant - robot.lean)
+    goal = robot.odometer + abs(shift / math.sin(slant))
+    while goal - robot.odometer > NEAR:
+        robot.drive(pace(robot, goal - robot.odometer), 0.0)
+        yield
+    yield from stop(robot)
+    yield from spin(robot, -robot.lean)
+    yield from go(robot, -abs(shift) / math.tan(SLANT))
+    robot.recall(memory, shift, robot.odometer - before)
 
 
 def _look_aside(robot: Robot) -> Control[tuple[float, float]]:
     """Return the ranges of both walls, where the robot stands or a little ahead."""
-    width = 2 * robot.parameters.r0
     start = robot.odometer
     left, right = yield from _mean(robot)
-    beside = robot.beside()
-    if left + right > width and beside.left + beside.right <= width:
-        return beside.left, beside.right
-    if left + right > width and robot.side_lead < robot.margin:
+    place = start + robot.margin
+    seen = [g for g in robot.glances() if abs(g.place - place) <= robot.margin]
+    if len(seen) >= LOOKS:
+        return median(g.left for g in seen), median(g.right for g in seen)
+    if left + right > 2 * robot.parameters.r0 and robot.side_lead < robot.margin:
         yield from go(robot, robot.margin)
         left, right = yield from _mean(robot)
         yield from go(robot, start - robot.odometer)
@@ -76,7 +89,7 @@ def _mean(robot: Robot) -> Control[tuple[float, float]]:
     return left / LOOKS, right / LOOKS
 
 
-def follow_hall(robot: Robot, primitive: Follow) -> Control[Outcome]:
+def follow_hall(robot: Robot, _primitive: Follow) -> Control[Outcome]:
     """Follow both walls, in their middle, until something changes."""
     parameters = robot.parameters
     yield from settle(robot)

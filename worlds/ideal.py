@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from behaviours.port import (
@@ -30,10 +31,12 @@ from behaviours.port import (
     Until,
 )
 from worlds.errors import WorldError
+from worlds.oblique import Oblique, wall_segments
 from worlds.sight import Sight
 
 if TYPE_CHECKING:
     import numpy as np
+    from numpy.typing import NDArray
 
     from behaviours.parameters import Parameters
     from behaviours.port import Primitive
@@ -49,6 +52,8 @@ TURN_TIME = 1.0
 """Seconds for a quarter turn."""
 EPS = 1e-9
 """Lengths that differ by less, in metres, are one length."""
+AXIS = 1e-7
+"""A heading that is off an axis by less, in radians, is along it."""
 NEAR = 1e-6
 """A wall that is off r0 by more, in metres, is one that has stepped."""
 
@@ -120,6 +125,9 @@ class IdealBody:
         self._sight = Sight(world)
         self._rng = rng
         self._sigma = sigma
+        self._world = world
+        self._slant: tuple[float, float, float] | None = None
+        """Pose, where the heading is along no axis."""
         self._quarters = quarters % 4
         self._u, self._v = self._sight.facing(start.x, start.y, self._quarters)
         self._draw_scale()
@@ -127,12 +135,20 @@ class IdealBody:
     @property
     def pose(self) -> tuple[float, float, float]:
         """True x and y, in metres, and heading, in radians, in the world's frame."""
+        if self._slant is not None:
+            return self._slant
         x, y = self._sight.world_point(self._u, self._v, self._quarters)
         return x, y, self._quarters * QUARTER
 
     def execute(self, primitive: Primitive) -> Outcome:
         """Carry out one primitive to its end; see `behaviours.port`."""
+        if self._slant is not None:
+            return self._execute_aslant(primitive)
         match primitive:
+            case Turn(side, angle) if not _is_quarters(angle):
+                return self._swing(side.value * angle)
+            case Turn(side, angle):
+                return self._turn(side, round(angle / QUARTER))
             case Follow(Guide.WALL, side):
                 return self._follow_wall(side)
             case Follow():
@@ -141,8 +157,6 @@ class IdealBody:
                 return self._move(primitive)
             case Approach():
                 return self._approach(primitive)
-            case Turn(side):
-                return self._turn(side)
             case Align():
                 return self._align(primitive)
             case Centre():
@@ -160,10 +174,13 @@ class IdealBody:
         self, way: float, reason: Reason, clearance: float = math.inf
     ) -> Outcome:
         """Go `way` metres along the heading (negative: backward) and report."""
+        look = self._sight.looking[self._quarters]
+        swept = look.swept(self._u, self._v, way, self._scale) if way > EPS else ()
         self._u += way
         self.travelled += abs(way)
         self.clock += abs(way) / SPEED
-        return Outcome(way * self._scale, reason, self._readings(), clearance=clearance)
+        distance, seen = way * self._scale, self._readings()
+        return Outcome(distance, reason, seen, clearance=clearance, swept=swept)
 
     def _retreat(self, way: float, reason: Reason) -> Outcome:
         """Go `way` metres backward and report: a primitive's way is positive."""
@@ -177,13 +194,50 @@ class IdealBody:
         self.clock += abs(shift) / SPEED
         return Outcome(0.0, reason, self._readings(), shift=shift)
 
-    def _turn(self, side: Side) -> Outcome:
+    def _turn(self, side: Side, quarters: int) -> Outcome:
         x, y = self._sight.world_point(self._u, self._v, self._quarters)
-        self._quarters = (self._quarters + side.value) % 4
+        self._quarters = (self._quarters + side.value * quarters) % 4
         self._u, self._v = self._sight.facing(x, y, self._quarters)
-        self.clock += TURN_TIME
+        self.clock += TURN_TIME * quarters
         self._draw_scale()
         return Outcome(0.0, Reason.DONE, self._readings())
+
+    def _swing(self, angle: float) -> Outcome:
+        """Turn by any angle; along an axis, to within rounding, it is exact again."""
+        x, y, heading = self.pose
+        heading += angle
+        self.clock += TURN_TIME * abs(angle) / QUARTER
+        self._draw_scale()
+        self._slant = None
+        if _is_quarters(heading):
+            self._quarters = round(heading / QUARTER) % 4
+            self._u, self._v = self._sight.facing(x, y, self._quarters)
+            return Outcome(0.0, Reason.DONE, self._readings())
+        self._slant = (x, y, heading)
+        sight = Oblique(self._walls, x, y, heading)
+        return Outcome(0.0, Reason.DONE, sight.readings(self.parameters.r_min))
+
+    @cached_property
+    def _walls(self) -> NDArray[np.float64]:
+        return wall_segments(self._world)
+
+    def _execute_aslant(self, primitive: Primitive) -> Outcome:
+        """Carry out a primitive on a heading along no axis."""
+        if isinstance(primitive, Turn):
+            return self._swing(primitive.side.value * primitive.angle)
+        x, y, heading = self.pose
+        sight = Oblique(self._walls, x, y, heading)
+        way, reason = sight.end_of(primitive, self.parameters.r_min)
+        self._slant = (
+            x + way * math.cos(heading),
+            y + way * math.sin(heading),
+            heading,
+        )
+        self.travelled += way
+        self.clock += way / SPEED
+        swept = sight.swept(way, self._scale)
+        there = Oblique(self._walls, *self._slant).readings(self.parameters.r_min)
+        return Outcome(way * self._scale, reason, there, swept=swept)
 
     def _room_ahead(self, keep: float) -> float:
         """Return how far the robot can go until a wall ahead is `keep` away."""
@@ -291,3 +345,8 @@ class IdealBody:
         if left + right > 2 * self.parameters.r0 + EPS:
             return self._sidle(0.0, Reason.WIDENED)
         return self._sidle((left - right) / 2, Reason.DONE)
+
+
+def _is_quarters(angle: float) -> bool:
+    """Return whether an angle is a multiple of 90 degrees."""
+    return abs(angle - round(angle / QUARTER) * QUARTER) <= AXIS

@@ -31,6 +31,7 @@ from worlds.following import follow
 from worlds.halls import centre, follow_hall
 from worlds.robot import Robot
 from worlds.straight import Control, approach, go, move, stop
+from worlds.sweeping import pieces
 from worlds.turning import align, turn
 
 if TYPE_CHECKING:
@@ -129,7 +130,8 @@ class PhysicalBody:
             raise ValueError(f"sigma must be from 0 to 0.5; got {sigma}")
         if parameters is not None:
             profile = replace(profile, parameters=parameters)
-        self._arena = arena
+        self.arena = arena
+        """The world it stands in, and whoever else is there."""
         self._parameters = profile.parameters
         self._robot = Robot(arena, start, profile, rng, sigma)
         self._control: Control[Outcome] | None = None
@@ -152,7 +154,7 @@ class PhysicalBody:
     @property
     def clock(self) -> float:
         """Time since the arena's start, in simulated seconds."""
-        return self._arena.clock
+        return self.arena.clock
 
     @property
     def collisions(self) -> int:
@@ -184,14 +186,15 @@ class PhysicalBody:
             robot.edge_behind = None
         self._control = _controller(primitive)(robot, primitive)
         self._start = robot.odometer
-        self._since = self._arena.ticks
+        robot.sweep.clear()
+        self._since = self.arena.ticks
         self._is_recoiling = False
 
     def step(self) -> Outcome | None:
         """Decide, and unless the primitive has ended let one time step pass."""
         outcome = self.poll()
         if outcome is None:
-            self._arena.step()
+            self.arena.step()
         return outcome
 
     def poll(self) -> Outcome | None:
@@ -214,7 +217,7 @@ class PhysicalBody:
             next(self._control)
         except StopIteration as end:
             return self._end(end.value)
-        late = self._arena.ticks - self._since > PATIENCE / self._arena.time_step
+        late = self.arena.ticks - self._since > PATIENCE / self.arena.time_step
         return self._end(self._outcome(Reason.STUCK)) if late else None
 
     def halt(self) -> None:
@@ -225,7 +228,9 @@ class PhysicalBody:
     def _end(self, outcome: Outcome) -> Outcome:
         """Let go of the primitive."""
         self.halt()
-        return outcome
+        robot = self._robot
+        swept = pieces(robot.sweep, self._start, robot.odometer)
+        return replace(outcome, swept=swept)
 
     def _recoil(self) -> Control[Outcome]:
         """Go back from what was touched; it is STUCK if that does not help."""

@@ -66,6 +66,8 @@ class Robot:
         """Whether the rangers answered anew at this tick."""
         self.trace: deque[tuple[float, float, float, float]] = deque(maxlen=MEMORY)
         """Odometer, turning, left and right at each answer on this leg."""
+        self.sweep: list[tuple[float, float, float]] = []
+        """Place abeam, left and right at each answer of the present primitive."""
         self.edge_behind: float | None = None
         """How far behind the wall to follow next is known to end, in metres."""
         self.stepped_to: float | None = None
@@ -77,6 +79,8 @@ class Robot:
         side = next(r for r in profile.rangers if looks_along(r, math.pi / 2))
         self.spot = math.tan(side.cone)
         """Half the width of a side ranger's spot of light, in parts of its range."""
+        self.slide = self.spot * (abs(side.y) + side.far)
+        """Farthest, in metres, from a wall's edge that its end face is seen."""
         self.margin = self.spot * self.parameters.r0 + STAND * self.parameters.r0
         """How far ahead of an edge that is abeam what follows is seen, in metres."""
         self.seed: Glance | None = None
@@ -207,10 +211,16 @@ class Robot:
             self.trace.popleft()
 
     def recall(
-        self, memory: Iterable[tuple[float, float, float, float]], shift: float
+        self,
+        memory: Iterable[tuple[float, float, float, float]],
+        shift: float,
+        gone: float,
     ) -> None:
-        """Take up what was seen before it went sideways, `shift` metres to the left."""
-        gone = abs(shift)
+        """Take up what was seen before the robot went sideways, and only that.
+
+        By `shift` metres to the left; the odometer shows `gone` metres more.
+        """
+        self.trace.clear()
         for odometer, _, left, right in memory:
             row = odometer + gone, self.turned, left - shift, right + shift
             self.trace.append(row)
@@ -227,6 +237,8 @@ class Robot:
         eyes.look(self.disc.x, self.disc.y, self.disc.angle)
         self.left, self.right = eyes.left, eyes.right
         self.trace.append((self.odometer, self.turned, eyes.left, eyes.right))
+        abeam = self.odometer + self.side_lead
+        self.sweep.append((abeam, eyes.left, eyes.right))
         gap = eyes.front - self.ahead
         if math.isnan(gap):
             return

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numba import njit
 
-from behaviours.port import Side
+from behaviours.port import Side, Swept
 from worlds.errors import WorldError
+from worlds.sweeping import PIECE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -74,6 +75,11 @@ class Look:
         """Return the least range to one side over the next `way` metres."""
         return float(_least_beside(self._beside, u, v, _sign(side), way))
 
+    def swept(self, u: float, v: float, way: float, scale: float) -> tuple[Swept, ...]:
+        """Return what the sides see on a way ahead, told in lengths times `scale`."""
+        rows = _pieces(self._beside, u, v, way, scale, PIECE)
+        return tuple(map(Swept._make, rows.tolist()))
+
     def until_beside(
         self, u: float, v: float, side: Side, within: float, sense: int
     ) -> float:
@@ -123,7 +129,7 @@ class Look:
             here = u + sense * way
             reach = sum(self.beside(here, v, side) for side in sides)
             if (reach <= within + EPS) is is_within:
-                return way
+                return float(way)
         return inf
 
     def next_change(
@@ -210,6 +216,18 @@ def _least_beside(walls, u, v, side, way):  # type: ignore[no-untyped-def]  # pr
         ):
             nearest = reach
     return nearest
+
+
+@njit(cache=True)
+def _pieces(walls, u, v, way, scale, piece):  # type: ignore[no-untyped-def]  # pragma: no cover
+    count = max(1, int(np.ceil(way / piece)))
+    step = way / count
+    rows = np.empty((count, 3))
+    for k in range(count):
+        rows[k, 0] = (k + 1) * step * scale
+        rows[k, 1] = _least_beside(walls, u + k * step, v, 1, step)
+        rows[k, 2] = _least_beside(walls, u + k * step, v, -1, step)
+    return rows
 
 
 @njit(cache=True)

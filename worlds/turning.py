@@ -1,4 +1,4 @@
-"""How a robot turns by 90 degrees and squares up with a wall."""
+"""How a robot turns and squares up with a wall."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from worlds.robot import Robot
 from worlds.scan import nearest_piece, wall_of_scan
 from worlds.straight import SURE, Control, go, settle, stop
 
-__all__ = ["align", "turn"]
+__all__ = ["align", "spin", "turn"]
 
 SWEEP = math.radians(50)
 """A wall to square up with is looked for so far to either side, in radians."""
@@ -21,6 +21,10 @@ ROUND = 0.005
 """Least error of a range that a sweep reckons with, in parts of r0."""
 REACH = 0.85
 """Part of its range in which a ranger sees all of its spot on a slanted wall."""
+DOUBTS = 6.0
+"""A wall that lies askew by more standard deviations of the heading is another one."""
+ASKEW = 0.1
+"""How much more it may lie askew, in radians."""
 CLOSE = 1 / 15
 """An offset nearer to r0 than this, in parts of r0, is left to following."""
 
@@ -37,8 +41,8 @@ def spin(robot: Robot, angle: float) -> Control[None]:
 
 
 def turn(robot: Robot, primitive: Turn) -> Control[Outcome]:
-    """Turn by 90 degrees, and undo what the robot leaned."""
-    yield from quarter(robot, primitive.side)
+    """Turn by an angle, and undo what the robot leaned."""
+    yield from swing(robot, primitive.side.value * primitive.angle)
     robot.begin_leg()
     yield from settle(robot)
     return Outcome(0.0, Reason.DONE, robot.readings())
@@ -46,15 +50,21 @@ def turn(robot: Robot, primitive: Turn) -> Control[Outcome]:
 
 def quarter(robot: Robot, side: Side) -> Control[None]:
     """Turn to the axis on one side of the present one."""
-    angle = side.value * math.pi / 2
     yield from stop(robot)
     ahead = robot.eyes.beam
-    yield from spin(robot, angle - robot.lean)
-    robot.lean -= angle
-    robot.lean_variance += robot.profile.turn_error**2 + 1e-6
-    robot.begin_spin()
+    yield from swing(robot, side.value * math.pi / 2)
     sides = (math.nan, ahead) if side is Side.LEFT else (ahead, math.nan)
     robot.seed = Glance(robot.odometer, *sides)
+
+
+def swing(robot: Robot, angle: float) -> Control[None]:
+    """Turn to an axis at an angle to the present one."""
+    yield from stop(robot)
+    yield from spin(robot, angle - robot.lean)
+    robot.lean -= angle
+    quarters = angle / (math.pi / 2)
+    robot.lean_variance += (robot.profile.turn_error * quarters) ** 2 + 1e-6
+    robot.begin_spin()
 
 
 def align(robot: Robot, primitive: Align) -> Control[Outcome]:
@@ -118,7 +128,8 @@ def _square_up(robot: Robot, side: Side) -> Control[float]:
     yield from stop(robot)
     piece = nearest_piece(scan, robot.parameters.r0 / 3)
     wall = wall_of_scan(piece, _inverse_error(robot), side, 2 * ranger.cone)
-    if wall is None:
+    most = ASKEW + DOUBTS * math.sqrt(robot.lean_variance)
+    if wall is None or abs(wall.normal) > most:
         yield from spin(robot, axis - robot.turned)
         return math.inf
     yield from spin(robot, axis + wall.normal - robot.turned)

@@ -9,6 +9,7 @@ in a row, are a change of the wall.
 from __future__ import annotations
 
 import math
+from collections import deque
 from dataclasses import dataclass
 
 from behaviours.parameters import Parameters
@@ -23,6 +24,8 @@ GONE = 3
 """So many in a row that are too far are the wall's end."""
 SPOT = 2.5
 """They agree for so many half widths of the spot on the wall: more than all of it."""
+UNSURE = 4
+"""The last readings that fitted before a change may have been of it already."""
 SEED = 3
 """So many readings that agree are a wall."""
 
@@ -75,6 +78,7 @@ class WallTrack:
         self.taken_up = math.inf
         """What the odometer showed when the wall was found, in metres."""
         self._misfits: list[tuple[float, float]] = []
+        self._past: deque[tuple[float, float, float]] = deque(maxlen=UNSURE)
         self._seeds: list[float] = []
         self.reach = parameters.r_max + self._least
         """Farthest, in metres, that a wall is taken up."""
@@ -137,6 +141,7 @@ class WallTrack:
             self._decide(expected)
             return
         self._misfits.clear()
+        self._past.append((self.lean, self._turned, self.lean_variance))
         self.distance += hd / spread * misfit
         self.lean += hq / spread * misfit
         self._pdd -= hd * hd / spread
@@ -178,6 +183,14 @@ class WallTrack:
             began = misfits[0][0]
             place = began + self.mount + (-spot if is_dark else spot)
             self.change = Change(reason, place, found, began, settled)
+            self._unlearn()
+
+    def _unlearn(self) -> None:
+        """Take back what the last readings before the change said of the heading."""
+        if len(self._past) == UNSURE:
+            lean, turned, variance = self._past[0]
+            self.lean = lean + self._sense * (self._turned - turned)
+            self.lean_variance = variance
 
     def _tolerance(self, reading: float) -> float:
         """Return by how much readings of one wall may differ, in metres."""

@@ -10,6 +10,7 @@ from typing import TypeAlias
 import shapely
 
 from worlds.errors import WorldError
+from worlds.showing import html_of_rings, svg_of_rings
 
 __all__ = ["Ring", "World", "make_world"]
 
@@ -54,6 +55,14 @@ class World:
             for ring in self.rings
             for (x0, y0), (x1, y1) in zip(ring, ring[1:] + ring[:1], strict=True)
         )
+
+    def _repr_svg_(self) -> str:
+        """Return the picture that a notebook shows."""
+        return svg_of_rings(self.rings, self.name)
+
+    def _repr_html_(self) -> str:
+        """Return the picture and a line about it, for a notebook."""
+        return html_of_rings(self.rings, self.name)
 
 
 def make_world(

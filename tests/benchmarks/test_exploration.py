@@ -25,6 +25,9 @@ from topomap.exploration import (
 from topomap.exploration.astar import astar
 from topomap.exploration.grid_worlds import maze
 
+DRAWS = 15
+"""How often places are drawn where times are summed over draws."""
+
 
 def rooms(size, seed=1, side=50):
     """Return a square of rooms with doors, most of them open."""
@@ -73,6 +76,13 @@ def median_time(call, times=5):
         call()
         taken.append(time.perf_counter() - begin)
     return statistics.median(taken)
+
+
+def seconds(call):
+    """Return how long a call takes, in seconds."""
+    begin = time.perf_counter()
+    call()
+    return time.perf_counter() - begin
 
 
 @pytest.mark.parametrize("size", [200, 500, 1000, 2000])
@@ -139,12 +149,46 @@ def test_a_star(kind):
         "open": lambda: np.ones((401, 401), dtype=bool),
     }[kind]()
     for robots in (1, 2, 3, 5, 8, 16):
-        cells = places(free, robots + 1, rng)
-        source, team = tuple(cells[0].tolist()), cells[1:]
-        wave = median_time(partial(distances, free, [source], until=team))
-        single = median_time(partial(astar, free, source, team))
-        multi = median_time(partial(astar, free, source, team, together=True))
+        totals = np.zeros(3)
+        for draw in range(DRAWS + 1):
+            cells = places(free, robots + 1, rng)
+            source, team = tuple(cells[0].tolist()), cells[1:]
+            calls = (
+                partial(distances, free, [source], until=team),
+                partial(astar, free, source, team),
+                partial(astar, free, source, team, together=True),
+            )
+            taken = [seconds(call) for call in calls]
+            if draw:  # the first one warms up
+                totals += taken
+        wave, single, multi = totals
         print(f"A* {kind}, {robots}: {single / wave:.2f} x, multi {multi / wave:.2f} x")
+
+
+@pytest.mark.parametrize("size", [100, 200, 500])
+@pytest.mark.parametrize(("robots", "frontiers"), [(2, 5), (5, 10), (10, 20)])
+def test_decisions_on_small_grids(size, robots, frontiers):
+    free = rooms(size)
+    rng = np.random.default_rng(size + robots)
+    totals, settled = np.zeros(3), 0
+    for draw in range(DRAWS + 1):
+        team = places(free, robots, rng)
+        goals = [[cell] for cell in places(free, frontiers, rng).tolist()]
+        calls = (
+            partial(cost_matrix, free, team, goals),
+            partial(allocate_by_waves, free, team, goals),
+            partial(allocate_by_waves, free, team, goals, asking=0),
+        )
+        taken = [seconds(call) for call in calls]
+        if draw:
+            totals += taken
+            settled += allocate_by_waves(free, team, goals).settled
+    matrix, together, alone = totals
+    print(
+        f"minpos {size}x{size}, {robots} robots, {frontiers} frontiers: own matrix "
+        f"{matrix / together:.2f} x (all), {matrix / alone:.2f} x (one); cells "
+        f"{settled / DRAWS / free.sum() / frontiers:.3f} (all) of the matrix's"
+    )
 
 
 def test_simulator():

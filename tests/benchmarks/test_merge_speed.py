@@ -13,7 +13,8 @@ import pytest
 from merge.embedding import embed
 from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out
-from merge.makers import cut, make_maze, overlapping, perturb, turn
+from merge.makers import cut, overlapping, perturb, turn
+from merge.mazes import make_maze
 from merge.options import Options
 from merge.pairwise import match
 from merge.published import grow_published

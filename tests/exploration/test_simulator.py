@@ -2,6 +2,8 @@
 
 import json
 import math
+import os
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -73,6 +75,52 @@ def test_waves_and_matrix_drive_the_same_run():
         by_waves = explore_grid(free, starts, Settings(allocator=allocator, reach=6))
         by_table = explore_grid(free, starts, Settings(allocator=function, reach=6))
         assert same(by_waves, by_table)
+
+
+def test_waves_and_matrix_drive_the_same_run_of_robots_in_their_own_time():
+    from topomap.exploration import greedy, minpos
+
+    periods = Periods(1, 3)
+    for allocator, function in (("minpos", minpos), ("greedy", greedy)):
+        free, starts = small_maze(9)
+        by_waves, by_table = (
+            explore_asynchronously(free, starts, Settings(which, reach=6), periods)
+            for which in (allocator, function)
+        )
+        assert same(by_waves, by_table)
+
+
+def test_allocators_learn_of_turns_from_the_last_step():
+    from topomap.exploration import mindist
+
+    turns = []
+
+    def watch(costs, details):
+        turns.append(details.turns)
+        return mindist(costs, details)
+
+    corridor = np.ones((1, 21), dtype=bool)
+    for run in (explore_grid, explore_asynchronously):
+        turns.clear()
+        run(corridor, [(0, 8)], Settings(watch, reach=3))
+        assert turns[0].max() == 0
+        np.testing.assert_allclose(turns[1], [[0.0, np.pi]], atol=1e-9)
+
+
+def test_robots_explore_a_section_of_a_hospital_that_others_drew():
+    from topomap.exploration.grid_files import read_grid
+
+    data = Path(
+        os.environ.get("TOPOMAP_DATA", Path(__file__).parents[3] / "shared/data")
+    )
+    picture = data / "stage" / "hospital_section.png"
+    if not picture.exists():
+        pytest.skip("the data is not there")
+    free = largest_region(read_grid(picture, 6))
+    starts = central_starts(free, 4, np.random.default_rng(0))
+    run = explore_grid(free, starts, Settings("routes", reach=8, limit=3000))
+    assert run.complete
+    assert run.seen[free].mean() > 0.99
 
 
 def test_redundant_robots_wait_and_the_run_still_ends():

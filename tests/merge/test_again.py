@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from merge.again import match_again, remember
-from merge.makers import breadth_first, cut, make_maze, perturb
+from merge.graph import Graph
+from merge.makers import breadth_first, cut, perturb
+from merge.mazes import make_maze
 from merge.options import Options
 from merge.pairwise import match
 
@@ -76,3 +78,32 @@ def test_a_map_that_lost_vertices_is_refused():
     (a, b), (more, _) = growing(1, regular=False)[:2]
     with pytest.raises(ValueError, match="fewer than the"):
         match_again(remember(more, b), a, b)
+
+
+def staircase(last, whole):
+    """Return a winding corridor, its last edge so long, some vertices half seen."""
+    steps = [4.0, 7.0, 3.0, 9.0, 5.0, 12.0, 2.0, 8.0, 6.0, last]
+    exits = [[0.0]]
+    for k in range(1, 11):
+        ahead = (k % 2) * np.pi / 2
+        exits.append([(1 - k % 2) * np.pi / 2 + np.pi, ahead][: 1 + (k < 10)])
+    return Graph.of(
+        types=[1] + [2] * 9 + [1],
+        exits=exits,
+        edges=[(k, k > 0, k + 1, 0) for k in range(10)],
+        lengths=steps,
+        sigmas=[0.02 * step for step in steps],
+        complete=[k in whole for k in range(11)],
+    )
+
+
+@pytest.mark.parametrize("half_seen", range(8))
+def test_growth_starts_beyond_the_half_seen_vertices_beside_a_change(half_seen):
+    """Those next to the change cannot start; only ones further on can."""
+    b = staircase(5.5, [k for k in range(11) if k < 10 - half_seen])
+    known = remember(staircase(9.9, range(11)), b)
+    assert len(known.match.hypotheses) == 0
+    mended = staircase(5.5, range(11))
+    again = match_again(known, mended, b)
+    assert content(again.match) == content(match(mended, b))
+    assert len(again.match.hypotheses) == 1

@@ -7,7 +7,8 @@ import pytest
 
 from merge.fleet import merge_fleet
 from merge.graph import GraphError
-from merge.makers import breadth_first, cut, make_maze, perturb, turn
+from merge.makers import breadth_first, cut, perturb, turn
+from merge.mazes import make_maze
 from merge.places import Places
 from merge.rigid import RigidTransform
 

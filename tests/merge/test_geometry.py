@@ -16,7 +16,8 @@ from merge.clustering import (
 from merge.embedding import embed, embed_with_covariances
 from merge.joining import join
 from merge.layout import lay_out
-from merge.makers import breadth_first, cut, displace, make_maze, perturb, turn
+from merge.makers import breadth_first, cut, displace, perturb, turn
+from merge.mazes import make_maze
 from merge.options import Options
 from merge.pairwise import match
 from merge.rigid import AmbiguousRotationError, RigidTransform, register_rigid

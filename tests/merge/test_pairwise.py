@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from merge.joining import join
-from merge.makers import breadth_first, cut, make_maze, perturb, turn
+from merge.makers import breadth_first, cut, perturb, turn
+from merge.mazes import make_maze
 from merge.pairwise import match
 
 

@@ -1,6 +1,7 @@
 """The source's method, held against its worked example, and the fast one against it."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,8 @@ import pytest
 from merge.graph import Graph
 from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out, sign
-from merge.makers import breadth_first, cut, make_maze, perturb, turn
+from merge.makers import breadth_first, cut, perturb, turn
+from merge.mazes import make_maze
 from merge.options import Options
 from merge.published import compatible_pairings, grow_published
 
@@ -235,3 +237,27 @@ def bent(graph):
         shifts=graph.shifts,
         complete=graph.complete,
     )
+
+
+@pytest.mark.parametrize("doors", [False, True])
+@pytest.mark.parametrize("tolerate_rim", [False, True])
+@pytest.mark.parametrize("kind", ["whole", "partly seen", "bent"])
+def test_compiled_and_plain_search_agree_to_the_last_bit(kind, tolerate_rim, doors):
+    options = Options(tolerate_rim=tolerate_rim, doors=doors)
+    total = 0
+    for seed in range(4):
+        a, b = views_of_a_maze(seed, regular=True, size=30)
+        if kind == "bent":
+            a, b = bent(a), bent(b)
+        elif kind == "partly seen":
+            rng = np.random.default_rng(seed)
+            a, b = partly_seen(a, rng), partly_seen(b, rng)
+        one, other = (
+            grow_hypotheses(lay_out(a), lay_out(b), replace(options, compiled=compiled))
+            for compiled in (True, False)
+        )
+        for name in ("first", "a", "b", "darts", "score", "edges", "contradictions"):
+            np.testing.assert_array_equal(getattr(one, name), getattr(other, name))
+        assert one.tried == other.tried
+        total += len(one)
+    assert total > 0

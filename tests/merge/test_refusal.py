@@ -7,11 +7,14 @@ import pytest
 
 from merge.chance import false_merge_probability
 from merge.graph import Graph
+from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out
-from merge.makers import cut, make_maze, perturb, turn
+from merge.makers import breadth_first, cut, perturb, turn
+from merge.mazes import make_maze
 from merge.options import Options
 from merge.pairwise import match
-from merge.repeats import find_repeats
+from merge.repeating import double, repeat
+from merge.repeats import Copies, find_copies, told_by_copies
 
 E, N, W, S = 0.0, math.pi / 2, math.pi, 3 * math.pi / 2
 BACK = {E: W, N: S, W: E, S: N}
@@ -83,29 +86,7 @@ def test_a_maze_of_unequal_cells_lies_on_itself_in_one_way():
 
 def rotunda():
     """Return a building that looks the same after half a turn."""
-    half = make_maze(4, 6, np.random.default_rng(8))
-    order = np.arange(len(half))
-    at = half.positions
-    south = np.lexsort((at[:, 0], at[:, 1]))[0]
-    # A second copy, turned by half a turn about a door south of the first corner.
-    free = [way for way in (S,) if not np.isclose(half.exits_of(south), way).any()]
-    assert free
-    exits = [half.exits_of(v).tolist() for v in order]
-    exits[south].append(S)
-    twice = [[(angle + math.pi) % math.tau for angle in ways] for ways in exits]
-    size = len(half)
-    edges = half.edges.tolist()
-    edges += [(u + size, i, v + size, j) for u, i, v, j in half.edges.tolist()]
-    door = len(exits[south]) - 1
-    edges.append((south, door, south + size, door))
-    lengths = [*half.lengths, *half.lengths, 6.0]
-    return Graph.of(
-        types=[len(ways) for ways in exits] * 2,
-        exits=exits + twice,
-        edges=edges,
-        lengths=lengths,
-        sigmas=[1e-3] * len(lengths),
-    )
+    return double(make_maze(4, 6, np.random.default_rng(8)))
 
 
 def test_a_symmetric_building_is_refused_and_both_ways_are_returned():
@@ -127,6 +108,15 @@ def test_one_half_of_a_symmetric_building_is_refused_too():
     half = cut(whole, np.arange(len(whole) // 2))
     found = match(perturb(whole, 0.03, rng), perturb(half, 0.03, rng))
     assert not found.accepted
+
+
+def test_luck_in_the_lengths_does_not_decide_between_equal_halves():
+    whole = double(make_maze(6, 8, np.random.default_rng(1)))
+    half = cut(whole, np.arange(len(whole) // 2))
+    for seed in range(40):
+        rng = np.random.default_rng(seed)
+        found = match(perturb(whole, 0.03, rng), perturb(half, 0.03, rng))
+        assert not found.accepted, seed
 
 
 def with_door(graph, vertex):
@@ -202,19 +192,72 @@ def test_options_out_of_range(name, value, message):
         Options(**{name: value})
 
 
-def flags(graph, vertices):
-    return find_repeats(graph, lay_out(graph), np.array(vertices), Options())
+def told_share(graph, vertices):
+    """Return how much of a map's match with a part of itself copies explain."""
+    vertices = np.array(vertices)
+    part = lay_out(cut(graph, vertices))
+    score = grow_hypotheses(part, lay_out(graph), Options()).score.max()
+    copies = find_copies(graph, lay_out(graph), vertices, Options())
+    return told_by_copies([copies], len(vertices), score) / score
 
 
 def test_parts_repeated_in_large_are_found_and_unequal_ones_are_not():
     rng = np.random.default_rng(2)
     equal = perturb(corridor(1, 7), 0.01, rng)
-    assert flags(equal, range(len(equal) - 6)).mean() > 0.5
+    assert told_share(equal, range(len(equal) - 6)) > 0.5
     unequal = perturb(make_maze(6, 6, rng), 0.01, rng)
-    assert not flags(unequal, range(len(unequal))).any()
+    assert told_share(unequal, range(len(unequal))) == 0
 
 
 def test_half_a_symmetric_building_is_the_other_half_again():
     whole = perturb(rotunda(), 0.01, np.random.default_rng(0))
     half = len(whole) // 2
-    assert flags(whole, range(half)).all()
+    assert told_share(whole, range(half)) > 0.7
+
+
+def test_copies_explain_each_vertex_once_and_no_more_than_its_score():
+    def told(*parts):
+        first = np.arange(len(parts) + 1) * 6
+        rows = [np.arange(6) + start for start, _ in parts]
+        copies = Copies(
+            first, np.concatenate(rows), np.array([gain for _, gain in parts])
+        )
+        return told_by_copies([copies], 12, 30.0)
+
+    assert told_by_copies([], 12, 30.0) == 0
+    assert told((0, 9.0)) == 9.0
+    assert told((0, 9.0), (0, 8.0)) == 9.0
+    assert told((0, 9.0), (3, 8.0)) == 13.0
+    assert told((0, 99.0), (6, 9.0)) == 24.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_one_of_equal_wings_is_refused_and_every_wing_is_returned(seed):
+    rng = np.random.default_rng(seed)
+    hotel = repeat(make_maze(4, 5, rng), 3)
+    size = (len(hotel) - 3) // 3
+    part = cut(hotel, size + breadth_first(cut(hotel, np.arange(size)), 0, size))
+    found = match(perturb(hotel, 0.02, rng), perturb(part, 0.02, rng))
+    assert not found.accepted
+    assert "more than one way" in found.reason
+    assert len(found.alternatives) >= 2
+    assert found.false_merge_probability > 0.01
+
+
+def test_equal_wings_are_told_apart_where_the_end_of_the_corridor_is_seen():
+    rng = np.random.default_rng(0)
+    hotel = repeat(make_maze(4, 5, rng), 3)
+    found = match(perturb(hotel, 0.01, rng), perturb(hotel, 0.01, rng))
+    assert (found.pairs[:, 0] == found.pairs[:, 1]).all()
+    assert len(found.pairs) == len(hotel)
+
+
+@pytest.mark.parametrize(
+    ("copies", "kept", "message"),
+    [(1, True, "copies: expected at least 2; got 1"), (2, False, "with positions")],
+)
+def test_repeating_refuses(copies, kept, message):
+    wing = make_maze(3, 3, np.random.default_rng(0))
+    wing = wing if kept else perturb(wing, 0.02, np.random.default_rng(0))
+    with pytest.raises(ValueError, match=message):
+        repeat(wing, copies)

@@ -146,7 +146,7 @@ def test_every_closing_closes_an_easy_room(closing):
         ({"start": Pose(9, 9)}, WorldError, "is outside the outer ring"),
         ({"start": Pose(0.1, 1)}, WorldError, "expected at least r0 = 0.3 m"),
         (
-            {"parameters": Parameters(r0=1.1, r_min=0.5, r_max=2.0)},
+            {"parameters": Parameters(r0=3.0, r_min=0.5, r_max=4.0)},
             WorldError,
             "",
         ),

@@ -2,71 +2,26 @@
 
 import json
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import worlds
 from behaviours.parameters import Parameters
+from tests.topomap.partial_maps import part
 from topomap.cli import main
 from topomap.comparison import compare_maps
 from topomap.embedding import embedded
 from topomap.errors import InputError
 from topomap.files.map_files import load_map, save_map
 from topomap.merging import merge_maps
-from topomap.topological_map import Length, TopologicalMap, Vertex
+from topomap.topological_map import TopologicalMap, Vertex
 from topomap.truth import true_maps
 
 
 def truth(seed, corners=60):
     world = worlds.make("random", np.random.default_rng(seed), corners=corners)
     return true_maps(world, Parameters())[0]
-
-
-def part(chart, start, size, turn, sigma, rng):
-    """Return what a robot knows that has seen `size` vertices from `start` on."""
-    near = {v.id: [] for v in chart.vertices}
-    for edge in chart.edges:
-        near[edge.source].append(edge.target)
-        near[edge.target].append(edge.source)
-    seen = [start]
-    for vertex in seen:
-        seen += [v for v in sorted(near[vertex]) if v not in seen]
-        if len(seen) >= size:
-            break
-    seen = seen[:size]
-    edges = [e for e in chart.edges if e.source in seen and e.target in seen]
-    vertices = []
-    for vertex in chart.vertices:
-        if vertex.id not in seen:
-            continue
-        used = [e.source_exit for e in edges if e.source == vertex.id]
-        used += [e.target_exit for e in edges if e.target == vertex.id]
-        free = tuple(x for x in vertex.exits if all(abs(x - y) > 0.01 for y in used))
-        vertices.append(
-            Vertex(
-                vertex.id,
-                vertex.type,
-                tuple(x + turn for x in vertex.exits),
-                tuple(x + turn for x in free),
-            )
-        )
-    turned = [
-        replace(
-            edge,
-            source_exit=edge.source_exit + turn,
-            target_exit=edge.target_exit + turn,
-            lengths=(measured(edge.fused.value, sigma, rng),),
-        )
-        for edge in edges
-    ]
-    return TopologicalMap(tuple(vertices), tuple(turned), chart.parameters)
-
-
-def measured(value, sigma, rng):
-    seen = value * (1 + sigma * rng.standard_normal())
-    return Length(seen, sigma * seen)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -172,3 +127,38 @@ def test_share_out_of_range_is_bad_input(tmp_path, capsys):
     assert "--false-merge: expected a share in (0, 1); got 0.0" in (
         capsys.readouterr().err
     )
+
+
+def test_two_worker_processes_and_a_cluster_of_two_say_what_one_process_says(
+    tmp_path, capsys
+):
+    distributed = pytest.importorskip("distributed")
+    chart = truth(1)
+    rng = np.random.default_rng(0)
+    ids = [v.id for v in chart.vertices]
+    size = int(0.75 * len(ids))
+    parts = [
+        part(chart, ids[k * len(ids) // 3], size, float(k), 0.03, rng) for k in range(3)
+    ]
+    paths = write(tmp_path, *parts)
+
+    def told(name, *more):
+        out = tmp_path / name
+        assert main(["merge", *paths, "-o", str(out), "--json", *more]) == 0
+        said = json.loads(capsys.readouterr().out)
+        del said["elapsed_s"]
+        return said, out.read_text()
+
+    alone = told("alone.json")
+    assert alone[0]["matched_vertices"] > 0
+    assert told("pool.json", "--workers", "2") == alone
+    with distributed.LocalCluster(
+        n_workers=2,
+        threads_per_worker=1,
+        processes=False,
+        protocol="tcp://",
+        dashboard_address=None,
+    ) as cluster:
+        assert told("dask.json", "--scheduler", cluster.scheduler_address) == alone
+        ran = cluster.scheduler.transition_log
+    assert any("_match" in str(row[0]) for row in ran)

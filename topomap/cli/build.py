@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -10,6 +11,7 @@ import typer
 
 if TYPE_CHECKING:
     from topomap.mapping import Build
+    from topomap.page import BuildRecorder
     from worlds.pose import Pose
     from worlds.world import World
 
@@ -32,17 +34,23 @@ def build(
     closing: Annotated[
         str, typer.Option(help="What decides that the loop is closed.")
     ] = "likelihood",
+    improve: Annotated[
+        str, typer.Option(help="Add incursions: none, passive or active.")
+    ] = "none",
     max_walls: Annotated[
         int, typer.Option(help="Give the loop up as open after so many walls.")
     ] = 5000,
     plot: Annotated[
         Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
     ] = None,
+    page: Annotated[
+        Path | None, typer.Option(help="Page to write that replays the run: .html.")
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object and nothing else.")
     ] = False,
 ) -> None:
-    """Let one robot build the map of the boundary it first meets."""
+    """Let one robot build the map of all it can reach along walls and halls."""
     import numpy as np
 
     from topomap.bodies import body_parameters
@@ -59,6 +67,11 @@ def build(
     check_writable(output)
     if plot is not None:
         check_picture(plot)
+    if page is not None:
+        from topomap.page.html import check_page
+
+        check_page(page)
+    recorder = None if page is None else _recorder(place, sigma, body)
     began = time.perf_counter()
     with (
         naming(world),
@@ -70,34 +83,47 @@ def build(
             body=body,
             sigma=sigma,
             start=None if start is None else _pose(start),
-            closing=closer,
+            closing=closer if recorder is None else recorder.listen(closer),
             max_walls=max_walls,
+            watch=None if recorder is None else recorder.watch,
+            improve=improve,
         )
     elapsed = time.perf_counter() - began
     if plot is not None:
         draw_build(built, place, plot)
+    if page is not None and recorder is not None:
+        from topomap.page.html import save_page
+
+        save_page(recorder.recording(built), page)
     if built.closed:
         save_map(built.map, output)
     if as_json:
         show_json(summary(built, elapsed))
     if not built.closed:
-        raise JobError(
-            f"no closure found after {len(built.walk.legs)} walls: "
-            f"{built.walk.decisions[-1].reason}"
-        )
+        raise JobError(f"no closure found after {built.walls} walls: {built.reason}")
     if not as_json:
         say(_sentence(built, output))
+    if built.improvement is not None and built.improvement.failure:
+        raise JobError(
+            "the map was not improved to the end, and is saved as far as it went: "
+            f"{built.improvement.failure}"
+        )
 
 
 def summary(built: Build, elapsed: float) -> dict[str, Any]:
     """Return what `build --json` prints."""
     rmse = built.comparison.position_rmse
+    better = built.improvement
+    kinds = Counter(edge.kind for edge in built.map.edges)
     return {
         "closed": built.closed,
         "correct": built.correct,
         "vertices": len(built.map.vertices),
         "edges": len(built.map.edges),
-        "islands": 0,
+        "islands": better.islands if better else 0,
+        "passive_incursions": kinds["passive"],
+        "active_incursions": kinds["active"],
+        "improving_m": round(better.travelled, 3) if better else 0.0,
         "unexplored_exits": built.map.unexplored_exits,
         "travelled_m": round(built.travelled, 3),
         "simulated_s": round(built.simulated, 3),
@@ -105,9 +131,9 @@ def summary(built: Build, elapsed: float) -> dict[str, Any]:
         "position_rmse_m": None if rmse is None else round(rmse, 4),
         "hypotheses": built.hypotheses,
         "collisions": built.collisions,
-        "walls": len(built.walk.legs),
-        "error_probability": built.walk.decisions[-1].error_probability,
-        "reason": built.walk.decisions[-1].reason,
+        "walls": built.walls,
+        "error_probability": built.error_probability,
+        "reason": built.reason,
     }
 
 
@@ -117,6 +143,14 @@ def draw_build(built: Build, world: World, path: Path) -> None:
     from topomap.drawing import save_figure
 
     save_figure(path, lambda figure: fill_figure(built, world, figure))
+
+
+def _recorder(world: World, sigma: float, body: str) -> BuildRecorder:
+    """Return what looks on while the map is built."""
+    from topomap.bodies import body_profile
+    from topomap.page.of_build import BuildRecorder
+
+    return BuildRecorder(world, sigma, body_profile(body))
 
 
 def _pose(text: str) -> Pose:
@@ -140,6 +174,6 @@ def _sentence(built: Build, output: Path) -> str:
     verdict = "correct" if built.correct else "WRONG"
     return (
         f"{output}: {len(built.map.vertices)} vertices, closed after "
-        f"{len(built.walk.legs)} walls and {built.travelled:.1f} m; {verdict} against "
+        f"{built.walls} walls, {built.travelled:.1f} m in all; {verdict} against "
         f"the world's truth"
     )

@@ -28,6 +28,7 @@ def compare(
     from topomap.errors import InputError
     from topomap.files.map_files import load_map
     from topomap.files.world_files import load_world
+    from topomap.parts import compare_wholes, in_one
     from topomap.truth import true_maps
 
     if len(maps) != (2 if world is None else 1):
@@ -38,7 +39,12 @@ def compare(
     references = (
         (load_map(maps[1]),) if world is None else true_maps(load_world(world), robot)
     )
-    found = compare_maps(chart, *references)
+    is_whole = any(edge.kind in ("active", "island") for edge in chart.edges)
+    found = (
+        compare_wholes(chart, in_one(references))
+        if is_whole
+        else compare_maps(chart, *references)
+    )
     rmse = found.position_rmse
     if as_json:
         show_json(

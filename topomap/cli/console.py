@@ -14,12 +14,17 @@ if TYPE_CHECKING:
 
     from evidence.walls import Decision, LoopCloser, Wall
 
-__all__ = ["Progress", "naming", "progress", "say", "show_json", "watched"]
+__all__ = ["Progress", "naming", "note", "progress", "say", "show_json", "watched"]
 
 
 def say(text: str) -> None:
     """Print a line of the result."""
     typer.echo(text)
+
+
+def note(text: str) -> None:
+    """Say something about the result, beside it: on standard error."""
+    typer.echo(text, err=True)
 
 
 def show_json(value: Mapping[str, object]) -> None:

@@ -1,4 +1,4 @@
-"""`topomap demo`: the main job, from nothing to a picture."""
+"""`topomap demo`: the main job, from nothing to a picture and a page."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def demo(
     from topomap.files.atomic import make_folder
     from topomap.files.map_files import save_map
     from topomap.files.world_files import save_world
-    from topomap.mapping import build_map
+    from topomap.page import record_build, save_page
 
     make_folder(output)
     rng = np.random.default_rng(SEED)
@@ -36,7 +36,8 @@ def demo(
     save_world(world, output / "world.json")
     save_picture(output / "world.svg", lambda ax: draw_world(world, ax))
     with progress("a robot that sees 80 cm maps a world"):
-        built = build_map(world, rng, body="physical")
+        built, run = record_build(world, rng, body="physical")
+    save_page(run, output / "run.html")
     save_map(built.map, output / "map.json")
     draw_build(built, world, output / "build.svg")
     say(
@@ -45,5 +46,5 @@ def demo(
         f"{len(built.map.vertices)} vertices, "
         f"{'correct' if built.correct else 'not correct'}"
     )
-    for name in ("world.json", "world.svg", "map.json", "build.svg"):
+    for name in ("world.json", "world.svg", "map.json", "build.svg", "run.html"):
         say(f"  {output / name}")

@@ -15,8 +15,8 @@ def explore_grid(
     world: Annotated[
         str,
         typer.Argument(
-            help="maze, grid, irregular, office, open, stable, or a file: map_server "
-            "YAML, MovingAI .map, or a picture."
+            help="maze, grid, irregular, office, hospital, campus, open, stable, or a "
+            "file: map_server YAML, MovingAI .map, or a picture."
         ),
     ],
     robots: Annotated[int, typer.Option(help="How many robots.")] = 4,

@@ -18,6 +18,9 @@ __all__ = ["merge", "summary"]
 
 Mapper = Callable[..., Iterable[Any]]
 
+FEW = 1000
+"""Maps of no more vertices together are matched sooner than the compiler is loaded."""
+
 
 def merge(
     maps: Annotated[list[Path], typer.Argument(metavar="MAP MAP [MAP ...]")],
@@ -43,6 +46,9 @@ def merge(
     plot: Annotated[
         Path | None, typer.Option(help="Picture to draw: .svg, .png or .pdf.")
     ] = None,
+    page: Annotated[
+        Path | None, typer.Option(help="Page to write that shows the merge: .html.")
+    ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object and nothing else.")
     ] = False,
@@ -56,9 +62,18 @@ def merge(
 
     if not 0 < false_merge < 1:
         raise InputError("merge", "--false-merge", false_merge, "a share in (0, 1)")
+    if page is not None:
+        from topomap.page.html import check_page
+
+        check_page(page)
     charts = [load_map(path) for path in maps]
     began = time.perf_counter()
-    options = Options(false_merge=false_merge, doors=doors, tolerate_rim=tolerate_rim)
+    options = Options(
+        false_merge=false_merge,
+        doors=doors,
+        tolerate_rim=tolerate_rim,
+        compiled=sum(len(chart.vertices) for chart in charts) > FEW,
+    )
     with _mapper(workers, scheduler) as mapper:
         found = merge_maps(charts, options, force=force, mapper=mapper)
     elapsed = time.perf_counter() - began
@@ -69,6 +84,11 @@ def merge(
         from topomap.merge_drawing import draw_merge
 
         save_figure(plot, lambda figure: draw_merge(found, charts, figure))
+    if page is not None:
+        from topomap.page import recording_of_merge, save_page
+
+        names = [path.stem for path in maps]
+        save_page(recording_of_merge(found, charts, names), page)
     if as_json:
         show_json(summary(found, elapsed))
     if not found.accepted and not force:

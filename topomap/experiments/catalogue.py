@@ -17,8 +17,13 @@ MODULES = (
     "topomap.experiments.closing",
     "topomap.experiments.exploring",
     "topomap.experiments.floor_plans",
+    "topomap.experiments.halls",
+    "topomap.experiments.incursions",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
+    "topomap.experiments.merging_fleets",
+    "topomap.experiments.merging_plans",
+    "topomap.experiments.routes",
 )
 """Each has a tuple ``EXPERIMENTS``; imported when an experiment is asked for."""
 

@@ -33,7 +33,7 @@ def map_once(
         "correct": built.correct,
         "collisions": built.collisions,
         "travelled_m": built.travelled,
-        "laps": len(built.walk.legs) / len(built.map.vertices),
+        "laps": built.walls / len(built.map.edges),
         "position_rmse_m": built.comparison.position_rmse or 0.0,
     }
     if not built.closed:

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-import os
 from collections import Counter
-from functools import cache
 from itertools import product
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from merge.makers import cut, make_maze, overlapping, perturb, turn
+from merge.makers import cut, overlapping, perturb, turn
+from merge.mazes import make_maze
 from merge.pairwise import match
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 
@@ -21,12 +19,10 @@ if TYPE_CHECKING:
 
     from merge.graph import Graph
 
-__all__ = ["EXPERIMENTS", "merge_mazes", "merge_plans"]
+__all__ = ["EXPERIMENTS", "judge", "merge_mazes"]
 
 SPACING = {"maze": (2.0, 8.0), "regular": (3.0, 3.0)}
 """Distances between the grid lines of a maze, in metres: all alike in a regular one."""
-LEAST_CORNERS = 100
-"""Floor plans with fewer vertices on their longest boundary are left out."""
 BINS = (0.001, 0.01, 0.1, 0.5, 0.9)
 """Where the stated probabilities are parted for the reliability."""
 RIGHT = 0.9
@@ -54,62 +50,21 @@ def merge_mazes(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
             perturb(cut(other, two), sigma, rng), rng.uniform(0, math.tau), rng
         )
         truth = None if other is not maze else (one, two[order])
-        total.update(_judge(a, b, truth, "reliability" in cell))
+        total.update(judge(a, b, truth, "reliability" in cell))
     return dict(total)
 
 
-def merge_plans(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
-    """Merge pairs of partial maps of real floor plans, each of half its boundary."""
-    total: Counter[str] = Counter()
-    plans = _plans()
-    sigma, overlap = float(cell["sigma"]), float(cell["overlap"])
-    for _ in range(trials):
-        i, j = rng.choice(len(plans), 2, replace=False).tolist()
-        whole, other = plans[i], plans[i] if overlap >= 0 else plans[j]
-        one, two = overlapping(whole, len(whole) // 2, max(overlap, 0.0), rng)
-        if overlap < 0:
-            two, _ = overlapping(other, len(other) // 2, 0.0, rng)
-        a = perturb(cut(whole, one), sigma, rng)
-        b, order = turn(
-            perturb(cut(other, two), sigma, rng), rng.uniform(0, math.tau), rng
-        )
-        truth = (one, two[order]) if overlap >= 0 else None
-        total.update(_judge(a, b, truth, False))
-    return dict(total)
-
-
-@cache
-def _plans() -> tuple[Graph, ...]:
-    """Return the outer boundaries of the floor plans as a perfect robot maps them."""
-    from behaviours.parameters import Parameters
-    from topomap.errors import InputError
-    from topomap.merging import to_graph
-    from topomap.truth import true_maps
-    from worlds.errors import WorldError
-    from worlds.importing.formats import import_world
-
-    folder = Path(os.environ.get("TOPOMAP_DATA", "../shared/data")) / "floorplans"
-    found = []
-    for path in sorted(folder.glob("*.xml")):
-        try:
-            charts = true_maps(import_world(path), Parameters())
-        except WorldError:
-            continue
-        longest = max(map(to_graph, charts), key=len)
-        if len(longest) >= LEAST_CORNERS:
-            found.append(longest)
-    if len(found) < 2:
-        raise InputError("TOPOMAP_DATA", "", str(folder), "a folder of floor plans")
-    return tuple(found)
-
-
-def _judge(
+def judge(
     a: Graph,
     b: Graph,
     truth: tuple[NDArray[np.int64], NDArray[np.int64]] | None,
     stated: bool,
 ) -> dict[str, float]:
-    """Merge two maps and say what came of it, as tallies of one trial."""
+    """Merge two maps and say what came of it, as tallies of one trial.
+
+    `truth` has for each map what its vertices are in their building; None says that
+    the maps are of two buildings. With `stated`, what was claimed is told too.
+    """
     found = match(a, b)
     pairs = found.pairs
     right = False
@@ -163,22 +118,6 @@ EXPERIMENTS = (
         x="sigma",
     ),
     Experiment(
-        "merging-plans",
-        "How often are two halves of a real floor plan's boundary merged rightly?",
-        tuple(
-            {"sigma": sigma, "overlap": overlap}
-            for sigma, overlap in product(
-                (0.02, 0.05, 0.1), (-1.0, 0.1, 0.2, 0.3, 0.5, 0.7)
-            )
-        ),
-        merge_plans,
-        trials=1000,
-        batch_size=50,
-        shares=("correct", "refused", "false"),
-        means=("shared",),
-        x="overlap",
-    ),
-    Experiment(
         "merging-reliability",
         "How often is the best overlay wrong that is said to be so likely wrong?",
         tuple(
@@ -189,7 +128,7 @@ EXPERIMENTS = (
                 "sigma": 0.1,
                 "overlap": overlap,
             }
-            for world, overlap in product(SPACING, (0.0, 0.1, 0.15))
+            for world, overlap in product(SPACING, (0.0, 0.05, 0.1, 0.15))
         ),
         merge_mazes,
         trials=1000,

@@ -20,6 +20,7 @@ from topomap.exploration.observation import Pose, Sensor, merge_poses, observati
 from topomap.exploration.optimal import hungarian, minmax
 from topomap.exploration.ranks import ranks
 from topomap.exploration.registry import Allocator, allocators, register
+from topomap.exploration.route_sharing import routes
 from topomap.exploration.simulator import explore_grid
 from topomap.exploration.starts import central_starts
 from topomap.exploration.steps import EXACT, INTEGER, Steps
@@ -69,6 +70,7 @@ __all__ = [
     "read_costs",
     "redundant",
     "register",
+    "routes",
     "utility",
     "weighted",
     "weights_grid",

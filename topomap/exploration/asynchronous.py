@@ -11,8 +11,8 @@ import numpy as np
 
 from topomap.errors import InputError
 from topomap.exploration.costs import check_speeds
-from topomap.exploration.decisions import STEPS
 from topomap.exploration.exploring import Settings
+from topomap.exploration.knowledge import STEPS
 from topomap.exploration.measures import measure
 from topomap.exploration.team import Team
 
@@ -166,7 +166,7 @@ class _Clockwork:
         self.since_look[i] = self.since_choice[i] = 0.0
         team.talk(rng)
         k = i if len(team.seen) > 1 else 0
-        found = team.decide(k, self.aims)
+        found = team.decide(k, self.aims, i)
         if found is None:
             return False
         frontiers, decision = found
@@ -192,7 +192,9 @@ class _Clockwork:
         self.waited[i] = False
         gap = abs(ahead - int(team.robots[i]))
         length = 1.0 if gap in (1, team.width) else math.sqrt(2)
+        before = team.robots.copy()
         team.robots[i] = self.ways[i].pop(0)
+        team.turn(before)
         self.lengths[i] += length
         self.since_look[i] += length
         self.since_choice[i] += length

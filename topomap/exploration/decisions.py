@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from topomap.exploration.details import Details
 from topomap.exploration.exchange import exchange as swap
-from topomap.exploration.registry import needs_of
+from topomap.exploration.knowledge import STEPS, Frontiers, known_details
 from topomap.exploration.steps import EXACT
 from topomap.exploration.wave_allocation import ORDERS
 
@@ -21,28 +20,7 @@ if TYPE_CHECKING:
     Ints = NDArray[np.int64]
     Bytes = NDArray[np.uint8]
 
-__all__ = ["Decision", "Frontiers", "decide"]
-
-STEPS = (EXACT.straight, EXACT.diagonal)
-
-
-@dataclass(frozen=True, slots=True)
-class Frontiers:
-    """The groups of frontier cells of a map, as flat indices of its padded grid."""
-
-    cells: Ints
-    """Shape (K,): group by group."""
-    first: Ints
-    """Shape (m + 1,): where each group begins, and the end."""
-    central: Ints
-    """Shape (m,): the representative cell of each group."""
-
-    def __len__(self) -> int:
-        return len(self.central)
-
-    def of(self, j: int) -> Ints:
-        """Return the cells of one group."""
-        return self.cells[self.first[j] : self.first[j + 1]]
+__all__ = ["Decision", "decide"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +36,7 @@ class Decision:
 
 
 def decide(
+    seen: Bytes,
     open_: Bytes,
     width: int,
     robots: Ints,
@@ -65,11 +44,15 @@ def decide(
     settings: Settings,
     scratch: Ints,
     previous: Ints | None = None,
+    headings: NDArray[np.int64] | None = None,
+    asking: int = -1,
 ) -> Decision:
     """Send robots to frontiers, by parallel waves if the allocator has them.
 
     Parameters
     ----------
+    seen : ndarray, flat
+        1 where the map is known.
     open_ : ndarray, flat
         1 where the map is known to be free; not changed after all.
     width : int
@@ -84,6 +67,10 @@ def decide(
         Zero before and after.
     previous : ndarray of int, shape (n,), optional
         The cell each robot was on its way to, or -1.
+    headings : ndarray of int, shape (n, 2), optional
+        Rows and columns of each robot's last step; zeros before its first.
+    asking : int
+        The robot whose decision counts; those of others may be left out. -1: all.
 
     Returns
     -------
@@ -91,8 +78,14 @@ def decide(
         Frontier, way in cells and next cell of each robot.
     """
     if settings.allocator in ORDERS and not settings.exchange:
-        return _by_waves(open_, width, robots, frontiers, settings.allocator, scratch)
-    return _by_table(open_, width, robots, frontiers, settings, previous)
+        name = settings.allocator
+        found = _by_waves(open_, width, robots, frontiers, name, scratch, asking)
+        if asking < 0 or found.chosen[asking] >= 0:
+            return found
+        return _by_waves(open_, width, robots, frontiers, name, scratch, -1)
+    return _by_table(
+        seen, open_, width, robots, frontiers, settings, previous, headings
+    )
 
 
 def _by_waves(
@@ -102,6 +95,7 @@ def _by_waves(
     frontiers: Frontiers,
     allocator: str,
     scratch: Ints,
+    asking: int,
 ) -> Decision:
     """Decide without the table of costs."""
     from topomap.exploration.race_kernel import FREE, ROBOT, race
@@ -116,7 +110,7 @@ def _by_waves(
         robots,
         True,
         ORDERS.index(allocator),
-        -1,
+        asking,
         STEPS,
         scratch[: len(frontiers)],
     )
@@ -127,12 +121,14 @@ def _by_waves(
 
 
 def _by_table(
+    seen: Bytes,
     open_: Bytes,
     width: int,
     robots: Ints,
     frontiers: Frontiers,
     settings: Settings,
     previous: Ints | None,
+    headings: NDArray[np.int64] | None,
 ) -> Decision:
     """Decide with the table of costs."""
     from topomap.exploration.exploring_kernel import table, way
@@ -141,7 +137,10 @@ def _by_table(
     ways = table(open_, width, frontiers.cells, frontiers.first, robots, STEPS)
     costs = np.where(ways < FAR, ways / EXACT.straight, np.inf)
     chosen = settings.choose(
-        costs, _details(open_, width, frontiers, settings, previous)
+        costs,
+        known_details(
+            seen, open_, width, frontiers, settings, robots, previous, headings
+        ),
     )
     if settings.exchange:
         chosen = swap(costs, chosen)
@@ -152,35 +151,3 @@ def _by_table(
             onwards[i] = cells[0] if len(cells) else robots[i]
     reached = np.where(chosen >= 0, costs[np.arange(len(robots)), chosen], np.inf)
     return Decision(chosen, reached, onwards)
-
-
-def _details(
-    open_: Bytes,
-    width: int,
-    frontiers: Frontiers,
-    settings: Settings,
-    previous: Ints | None,
-) -> Details:
-    """Return what allocators may want to know beside the costs."""
-    from topomap.exploration.exploring_kernel import table
-    from topomap.exploration.wave_kernel import FAR
-
-    needs = needs_of(settings.choose)
-    between = visible = aims = None
-    if "between" in needs:
-        apart = table(
-            open_, width, frontiers.cells, frontiers.first, frontiers.central, STEPS
-        )
-        between = np.where(apart < FAR, apart / EXACT.straight, np.inf)
-        between = np.minimum(between, between.T)
-        visible = between <= settings.reach
-    if previous is not None:
-        group_of = {int(at): j for j in range(len(frontiers)) for at in frontiers.of(j)}
-        aims = np.array([group_of.get(int(at), -1) for at in previous], dtype=np.int64)
-    return Details(
-        between=between,
-        visible=visible,
-        sizes=np.diff(frontiers.first).astype(float),
-        previous=aims,
-        reach=settings.reach,
-    )

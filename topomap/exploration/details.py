@@ -37,6 +37,9 @@ class Details:
     """Shape (m,): how large each frontier is, such as its number of cells."""
     turns: NDArray[np.float64] | None = None
     """Shape (n, m): angle, in [0, pi], from a robot's heading to the frontier."""
+    beyond: NDArray[np.float64] | None = None
+    """Shape (m, k): unknown cells behind each frontier; column b counts those from
+    b to b + 1 times the reach, rounded down, away from it through the unknown."""
     previous: NDArray[np.int64] | None = None
     """Shape (n,): the frontier a robot was on its way to, or -1."""
     reach: float | None = None
@@ -49,6 +52,7 @@ class Details:
             "visible": (frontiers, frontiers),
             "sizes": (frontiers,),
             "turns": (robots, frontiers),
+            "beyond": (frontiers, 1),
             "previous": (robots,),
             "reach": (),
         }
@@ -57,6 +61,8 @@ class Details:
             if value is None:
                 continue
             array = np.asarray(value)
+            if field.name == "beyond" and array.ndim == 2:
+                shapes["beyond"] = (frontiers, array.shape[1])
             if array.shape != shapes[field.name]:
                 raise InputError(
                     field.name, "", array.shape, f"the shape {shapes[field.name]}"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from topomap.errors import InputError
+from topomap.exploration.building_worlds import campus, hospital
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -167,12 +168,14 @@ KINDS: dict[str, Callable[[np.random.Generator], Grid]] = {
     "grid": streets,
     "irregular": lambda rng: streets(rng, irregular=True),
     "office": office,
+    "hospital": hospital,
+    "campus": campus,
     "open": lambda rng: _hall(rng, 60),
 }
 
 
 def grid_world(kind: str, rng: np.random.Generator) -> Grid:
-    """Return a world of a kind: maze, grid, irregular, office or open.
+    """Return a world of one of the `KINDS`, such as maze, office or hospital.
 
     Examples
     --------

@@ -84,7 +84,7 @@ def weighted(
     return least(costs, value, costs)
 
 
-register("weighted")(weighted)
+register("weighted", needs=("turns",))(weighted)
 
 
 def weights_grid(steps: int) -> list[tuple[float, float, float]]:

@@ -46,7 +46,8 @@ def register(name: str, needs: Iterable[str] = ()) -> Callable[[A], A]:
         Lower case; not yet taken.
     needs : iterable of str
         Parts of `Details` that are costly to find out and that it uses:
-        ``between`` and ``visible``. A simulator leaves out the others.
+        ``between``, ``visible``, ``beyond`` and ``turns``. A simulator
+        leaves out the others.
 
     Returns
     -------
@@ -97,4 +98,6 @@ def find_allocator(name: str) -> Allocator:
 
 def needs_of(allocator: Allocator) -> frozenset[str]:
     """Return the costly parts of `Details` an allocator uses; all if not registered."""
-    return _NEEDS.get(id(allocator), frozenset({"between", "visible"}))
+    return _NEEDS.get(
+        id(allocator), frozenset({"between", "visible", "beyond", "turns"})
+    )

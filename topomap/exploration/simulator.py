@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from topomap.errors import InputError
-from topomap.exploration.decisions import STEPS, Decision, Frontiers
+from topomap.exploration.decisions import Decision
 from topomap.exploration.exploring import Run, Settings
+from topomap.exploration.knowledge import STEPS, Frontiers
 from topomap.exploration.measures import measure
 from topomap.exploration.team import Team
 
@@ -118,6 +119,7 @@ class _Steps:
         move(team.robots, onwards, taken)
         taken[before] = 0
         taken[team.robots] = 0
+        team.turn(before)
         gap = np.abs(team.robots - before)
         straight = (gap == 1) | (gap == team.width)
         self.lengths += np.where(gap == 0, 0.0, np.where(straight, 1.0, np.sqrt(2)))

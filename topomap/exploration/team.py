@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from topomap.errors import InputError
-from topomap.exploration.decisions import Decision, Frontiers, decide
+from topomap.exploration.decisions import Decision, decide
+from topomap.exploration.knowledge import Frontiers
 from topomap.exploration.sight import sight_tree
 from topomap.exploration.waves import cell_indices
 
@@ -45,6 +46,7 @@ class Team:
         border = np.pad(np.zeros(grid.shape, dtype=bool), 1, constant_values=True)
         self.seen[:, border.ravel()] = 1
         self.open = np.zeros_like(self.seen)
+        self.headings = np.zeros((n, 2), dtype=np.int64)
         self.own = np.zeros((n, self.truth.size), dtype=np.uint8)
         self.heard = np.full((n, n), -1, dtype=np.int64)
         self.together = border.ravel().astype(np.uint8)
@@ -83,6 +85,13 @@ class Team:
         self.fronts[k] = frontier_cells(
             self.seen[k], self.open[k], self.width, candidates
         )
+
+    def turn(self, before: Ints) -> None:
+        """Note in which direction robots moved, given where they were."""
+        step = np.stack(np.divmod(self.robots, self.width), axis=1)
+        step -= np.stack(np.divmod(before, self.width), axis=1)
+        moved = step.any(axis=1)
+        self.headings[moved] = step[moved]
 
     def frontiers(self, k: int) -> Frontiers:
         """Return the frontiers of the k-th map, grouped."""
@@ -125,14 +134,18 @@ class Team:
                 )
 
     def decide(
-        self, k: int, previous: Ints | None
+        self, k: int, previous: Ints | None, asking: int = -1
     ) -> tuple[Frontiers, Decision] | None:
-        """Decide by the k-th map; None if no frontier in it can be reached."""
+        """Decide by the k-th map; None if no frontier in it can be reached.
+
+        For one robot that is asking, or for all of which it knows.
+        """
         frontiers = self.frontiers(k)
         if not len(frontiers):
             return None
         believed = np.flatnonzero(self.heard[k] >= 0)
         decision = decide(
+            self.seen[k],
             self.open[k],
             self.width,
             self.heard[k][believed],
@@ -140,6 +153,8 @@ class Team:
             self.settings,
             self.scratch,
             None if previous is None else previous[believed],
+            self.headings[believed],
+            -1 if asking < 0 else int(np.searchsorted(believed, asking)),
         )
         if (decision.chosen < 0).all():
             return None

@@ -11,7 +11,7 @@ import msgspec
 
 from topomap.errors import InputError
 
-__all__ = ["read_bytes", "read_json"]
+__all__ = ["decode_json", "read_bytes", "read_json", "record_of", "told"]
 
 T = TypeVar("T")
 
@@ -75,10 +75,35 @@ def read_json(path: str | PathLike[str], form: str, version: int, layout: type[T
         If the file cannot be read, is not JSON, is of another format or
         version, or does not have the layout; names the path of the fault.
     """
-    source, data = fspath(path), read_bytes(path)
+    source = fspath(path)
+    raw = decode_json(source, read_bytes(path))
+    if not isinstance(raw, dict):
+        raise InputError(source, "", None, f"an object of format {form!r}")
+    for field, needed in (("format", form), ("version", version)):
+        found = raw.get(field)
+        if type(found) is not type(needed) or found != needed:
+            raise InputError(source, field, told(found), repr(needed))
+    return record_of(source, raw, layout)
+
+
+def decode_json(source: str, data: bytes) -> object:
+    """Return the value that JSON text stands for.
+
+    Parameters
+    ----------
+    source : str
+        Where it is from, for errors.
+    data : bytes
+        The text.
+
+    Raises
+    ------
+    InputError
+        If it is not UTF-8, is not JSON, or is nested too deeply.
+    """
     try:
         data.decode()
-        raw = msgspec.json.decode(data)
+        return msgspec.json.decode(data)
     except UnicodeDecodeError as error:
         raise InputError(
             source, "", None, f"UTF-8 text; byte {error.start} is none"
@@ -87,12 +112,30 @@ def read_json(path: str | PathLike[str], form: str, version: int, layout: type[T
         raise InputError(source, "", None, f"JSON; {error}") from None
     except RecursionError:
         raise InputError(source, "", None, "JSON that is less deeply nested") from None
-    if not isinstance(raw, dict):
-        raise InputError(source, "", None, f"an object of format {form!r}")
-    for field, needed in (("format", form), ("version", version)):
-        found = raw.get(field)
-        if type(found) is not type(needed) or found != needed:
-            raise InputError(source, field, _told(found), repr(needed))
+
+
+def record_of(source: str, raw: object, layout: type[T]) -> T:
+    """Return plain values in a layout, or say which of them does not fit.
+
+    Parameters
+    ----------
+    source : str
+        Where they are from, for errors.
+    raw : object
+        Lists, dicts, texts, numbers.
+    layout : type
+        What they must look like: a `msgspec.Struct`, say.
+
+    Returns
+    -------
+    layout
+        The record.
+
+    Raises
+    ------
+    InputError
+        If they do not have the layout; names the path of the fault.
+    """
     try:
         return msgspec.convert(raw, layout)
     except msgspec.ValidationError as error:
@@ -123,10 +166,10 @@ def _value_at(raw: Any, path: str) -> object:
     """Return what is at a path such as ``outer[3][1]``."""
     for name, index in re.findall(r"(\w+)|\[(\d+)\]", path):
         raw = raw[name] if name else raw[int(index)]
-    return "null" if raw is None else _told(raw)
+    return "null" if raw is None else told(raw)
 
 
-def _told(value: object) -> object:
+def told(value: object) -> object:
     """Return what an error can say of a value on its one line."""
     if isinstance(value, list | dict):
         return None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 import msgspec
 
@@ -48,6 +48,9 @@ class LengthRecord(msgspec.Struct, forbid_unknown_fields=True):
     sigma: Number
 
 
+Kind = Literal["base", "island", "passive", "active"]
+
+
 class EdgeRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True):
     """An edge; angles in degrees, lengths in metres."""
 
@@ -59,6 +62,10 @@ class EdgeRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True)
     lengths: list[LengthRecord]
     clearance: Number | None = None
     shift: Number = 0.0
+    kind: Kind = "base"
+    sureness: Number = 1.0
+    reach: Number | None = None
+    widths: list[tuple[Number, Number]] = []
 
 
 class MapRecord(msgspec.Struct, omit_defaults=True, forbid_unknown_fields=True):
@@ -101,6 +108,10 @@ def to_record(chart: TopologicalMap) -> MapRecord:
                 [LengthRecord(length.value, length.sigma) for length in edge.lengths],
                 edge.clearance,
                 edge.shift,
+                cast(Kind, edge.kind),
+                edge.sureness,
+                edge.reach,
+                list(edge.widths),
             )
             for edge in chart.edges
         ],
@@ -138,6 +149,10 @@ def from_record(record: MapRecord) -> TopologicalMap:
                 edge.behaviour,
                 edge.shift,
                 edge.clearance,
+                edge.kind,
+                edge.sureness,
+                edge.reach,
+                tuple(edge.widths),
             )
             for edge in record.edges
         ),

@@ -5,17 +5,18 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
-import yaml
-
 from worlds.errors import WorldError
 from worlds.importing.raster import read_picture, traced_world
 from worlds.importing.rings import Place
+from worlds.importing.yaml_text import YamlFaultError, read_yaml
 from worlds.world import World
 
 __all__ = ["import_ros_map"]
 
 MOST_BYTES = 4_000
 """Of the YAML file: it holds half a dozen lines."""
+MOST_VALUES = 200
+"""In it, what aliases stand for included."""
 
 
 def import_ros_map(
@@ -72,14 +73,18 @@ def import_ros_map(
 
 
 def _read_fields(path: Path) -> dict[str, object]:
-    data = path.read_bytes()
+    with path.open("rb") as file:
+        data = file.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:
         raise WorldError(f"{path}", f"expected at most {MOST_BYTES} bytes of YAML")
     try:
-        fields = yaml.safe_load(data)
-    except (yaml.YAMLError, ValueError, RecursionError) as error:
-        reason = str(error).partition("\n")[0]
-        raise WorldError(f"{path}", f"is no YAML: {reason}") from None
+        fields = read_yaml(data.decode("utf-8-sig"), MOST_VALUES)
+    except UnicodeDecodeError as error:
+        raise WorldError(
+            f"{path}", f"is no YAML: byte {error.start} is not UTF-8"
+        ) from None
+    except YamlFaultError as error:
+        raise WorldError(f"{path}", f"is no YAML: {error}") from None
     if not isinstance(fields, dict):
         raise WorldError(f"{path}", "expected fields such as image and resolution")
     return fields

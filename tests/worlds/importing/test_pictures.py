@@ -213,6 +213,13 @@ def test_faults_in_a_ros_map_are_named(tmp_path, changes, message):
         worlds.import_world(path)
 
 
+BOMB = b"origin:\n- &a [0, 0, 0, 0, 0, 0, 0, 0]\n" + b"".join(
+    b"- &%c [%b]\n" % (name, b", ".join([b"*%c" % (name - 1)] * 8))
+    for name in b"bcdefgh"
+)
+"""Twenty million values in 400 bytes."""
+
+
 @pytest.mark.parametrize(
     ("content", "message"),
     [
@@ -223,6 +230,7 @@ def test_faults_in_a_ros_map_are_named(tmp_path, changes, message):
         (b"", r"map.yaml: expected fields such as image"),
         (b" " * 5_000, r"map.yaml: expected at most 4000 bytes"),
         (b"[" * 2_000, r"map.yaml: is no YAML"),
+        (BOMB, r"map.yaml: is no YAML: line 4: more than 200 values"),
     ],
 )
 def test_what_is_no_ros_map_is_refused(tmp_path, content, message):

@@ -1,0 +1,110 @@
+"""Experiments that drive routes: how many arrive, and why the others do not."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+from topomap.errors import JobError
+from topomap.experiments.experiment import Cell, Experiment, Tallies
+from topomap.mapping import build_map
+from topomap.routes.driving import drive_route, match_world
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from topomap.routes.driving import Drive
+
+__all__ = ["EXPERIMENTS", "random_pairs"]
+
+PAIRS = 25
+"""Pairs driven on each map."""
+MOST_WORLDS = 20
+"""So many worlds are tried until one's map is correct."""
+
+
+def random_pairs(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
+    """Drive between random pairs of vertices of maps that the same body made."""
+    import worlds
+
+    total: Counter[str] = Counter()
+    body, sigma = str(cell["body"]), float(cell["sigma"])
+    for first in range(0, trials, PAIRS):
+        for _ in range(MOST_WORLDS):
+            world = worlds.make(
+                "random",
+                rng,
+                corners=int(cell["corners"]),
+                islands=int(cell["islands"]),
+            )
+            improve = str(cell["improve"])
+            try:
+                built = build_map(world, rng, body=body, sigma=sigma, improve=improve)
+            except JobError:
+                total["maps not correct"] += 1
+                continue
+            if built.correct:
+                break
+            total["maps not correct"] += 1
+        matched = match_world(built.map, world)
+        count = len(built.map.vertices)
+        for _ in range(min(PAIRS, trials - first)):
+            a, b = rng.choice(count, 2, replace=False).tolist()
+            drive = drive_route(matched, a, b, rng, body=body, sigma=sigma)
+            total.update(_tallies(drive))
+    return dict(total)
+
+
+def _tallies(drive: Drive) -> Tallies:
+    """Return what came of one drive; every failure has its kind."""
+    tallies: Tallies = {
+        "arrived": drive.arrived,
+        "planned anew": len(drive.routes) > 1,
+        "found elsewhere": sum(event.what == "elsewhere" for event in drive.events),
+        "incursions taken": sum(
+            step.edge.is_incursion for step in drive.routes[-1].steps
+        ),
+        "travelled_m": drive.travelled,
+        "collisions": drive.collisions,
+        "silently elsewhere": drive.claims and not drive.arrived,
+    }
+    if drive.failure:
+        what = drive.failure.split(":")[0]
+        if "has no arrow" in what:
+            what = "stuck"
+        elif what.startswith("vertex"):
+            what = "not reached after all plans"
+        elif what.startswith("no way"):
+            what = "no way left"
+        tallies[f"gave up: {what}"] = 1
+    return tallies
+
+
+def _cell(body: str, sigma: float, corners: int, islands: int, improve: str) -> Cell:
+    return {
+        "body": body,
+        "sigma": sigma,
+        "corners": corners,
+        "islands": islands,
+        "improve": improve,
+    }
+
+
+EXPERIMENTS = (
+    Experiment(
+        "routes",
+        "How many robots arrive that drive between random vertices of their maps?",
+        (
+            _cell("ideal", 0.06, 20, 0, "passive"),
+            _cell("ideal", 0.06, 12, 2, "active"),
+            _cell("physical", 0.06, 20, 0, "passive"),
+            _cell("physical", 0.06, 12, 2, "active"),
+        ),
+        random_pairs,
+        trials=1000,
+        batch_size=PAIRS,
+        shares=("arrived", "planned anew", "silently elsewhere"),
+        means=("travelled_m", "incursions taken", "found elsewhere", "collisions"),
+        x="improve",
+    ),
+)

@@ -1,0 +1,1 @@
+"""Formats of others: maps, worlds and pose graphs, in and out."""

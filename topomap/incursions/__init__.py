@@ -1,0 +1,1 @@
+"""Incursions: ways across open space, and the islands found on them."""

@@ -1,0 +1,213 @@
+"""What a robot has yet to drive: proofs, searches and the way home, in order."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+import shapely
+from shapely.affinity import translate
+
+from topomap.folding import FARTHEST
+from topomap.incursions.candidates import Options, candidates, edge_of
+from topomap.incursions.known_space import free_space, known_space, swept_along
+from topomap.incursions.passive import is_swept, with_passive
+from topomap.incursions.targets import (
+    SIGHT,
+    may_return,
+    search_targets,
+    worth_proving,
+)
+from topomap.incursions.tour import plan_tour
+from topomap.routes.costs import all_distances
+from topomap.topological_map import Edge
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from topomap.incursions.candidates import Candidate
+    from topomap.incursions.layout import Layout
+    from topomap.routes.journey import Journey, Outcome
+
+__all__ = [
+    "Agenda",
+    "Crossed",
+    "agenda_of",
+    "crossed_way",
+    "geometry_of",
+    "is_needless",
+]
+
+CRUMB = 1e-3
+"""A way of no length, in metres."""
+LESS_SURE = 2.0, 1.0, 0.3
+"""Confidences, in standard deviations, at which a way home is looked for."""
+LEAST_AREA = 1e-3
+"""Less hidden space than this, in square metres, hides nothing."""
+
+
+class Crossed(NamedTuple):
+    """A straight way that a robot has gone across open space."""
+
+    source: int
+    """Id of the vertex where it began."""
+    direction: float
+    """In radians in the map's frame."""
+    shape: shapely.Geometry
+    """What its sides swept, in metres from where it began."""
+
+
+class Agenda(NamedTuple):
+    """What is worth driving now."""
+
+    tasks: list[tuple[Edge, bool]]
+    """Ways in the order of a short tour; True for those that prove an incursion."""
+    space: shapely.Geometry
+    """Known space when it was made."""
+    unreturnable: set[tuple[int, int]]
+    """Source and target of those from which the robot might not get back."""
+
+
+def geometry_of(layout: Layout, crossed: list[Crossed]) -> list[shapely.Geometry]:
+    """Return what was swept on the ways across, in the map's frame."""
+    return [
+        translate(way.shape, *layout.positions[layout.index[way.source]])
+        for way in crossed
+        if way.source in layout.index
+    ]
+
+
+def agenda_of(
+    journey: Journey,
+    options: Options,
+    crossed: list[Crossed],
+    tried: set[tuple[int, int]],
+) -> Agenda:
+    """Find what is worth driving; the journey's map gets its passive incursions.
+
+    Parameters
+    ----------
+    journey : Journey
+        Of the robot.
+    options : Options
+        How sure and how useful incursions must be.
+    crossed : list of Crossed
+        What was driven before.
+    tried : set of (vertex id, degrees)
+        Ways that were driven before, wherever they led.
+
+    Returns
+    -------
+    Agenda
+        Without tasks when all is done.
+    """
+    layout = journey.layout
+    swept = geometry_of(layout, crossed)
+    space = known_space(layout, swept)
+    journey.chart = with_passive(layout, space, options)
+    layout = replace(layout, chart=journey.chart)
+    distances = all_distances(journey.chart)
+    here = layout.index[journey.vertex]
+    ids = [vertex.id for vertex in layout.chart.vertices]
+
+    def is_new(c: Candidate) -> bool:
+        return (ids[c.source], round(math.degrees(c.direction))) not in tried
+
+    found = [c for c in candidates(layout, distances, options) if is_new(c)]
+    proven = is_swept(found, layout, space, options)
+    open_ = [c for c, ok in zip(found, proven, strict=True) if not ok]
+    chosen = worth_proving(open_, distances, options)
+    chosen += _ways_home(layout, here, distances, options)
+    proofs = set(chosen)
+    chosen += search_targets(layout, space, distances, here, FARTHEST, tried)
+    able = []
+    given_up: set[tuple[int, int]] = set()
+    for c in chosen:
+        if not may_return(layout, c, options):
+            given_up.add((ids[c.source], ids[c.target]))
+        elif math.isfinite(distances[here, c.source]):
+            able.append(c)
+    order = plan_tour(here, [(c.source, c.target) for c in able], distances)
+    sigma = options.drift.sigma
+    tasks = [
+        (edge_of(able[k], layout, "active", sigma), able[k] in proofs) for k in order
+    ]
+    return Agenda(tasks, space, given_up)
+
+
+def _ways_home(
+    layout: Layout, here: int, distances: NDArray[np.float64], options: Options
+) -> list[Candidate]:
+    """Return ways to what the robot has come from and cannot reach surely.
+
+    On an island found a moment ago, no wall elsewhere may be wide enough to be sure
+    of. Then the surest is tried; where the robot lands it finds out by evidence.
+    """
+    apart = ~np.isfinite(distances[here])
+    if not apart.any():
+        return []
+    for confidence in (options.confidence, *LESS_SURE):
+        lax = replace(options, confidence=confidence)
+        found = [
+            c
+            for c in candidates(layout, distances, lax)
+            if apart[c.target] and not apart[c.source]
+        ]
+        if found:
+            return sorted(found, key=lambda c: (-round(c.sureness, 2), c.length))[:3]
+    return []
+
+
+def is_needless(
+    layout: Layout, task: Edge, proves: bool, space: shapely.Geometry
+) -> bool:
+    """Tell whether what a way should show has been swept since it was planned.
+
+    One that shall prove an incursion needs the robot's width, one that shall search
+    a gap in which an island may be, as far aside as the sensors see.
+
+    Parameters
+    ----------
+    layout : Layout
+        Of the map.
+    task : Edge
+        The way.
+    proves : bool
+        Whether it shall prove an incursion.
+    space : shapely.Geometry
+        Known space.
+    """
+    start = layout.positions[layout.index[task.source]]
+    ahead = np.array([math.cos(task.source_exit), math.sin(task.source_exit)])
+    line = shapely.LineString([start, start + (task.reach or 0.0) * ahead])
+    r_min = layout.parameters.r_min
+    width = r_min if proves else SIGHT * FARTHEST
+    hidden = line.buffer(width, cap_style="flat").difference(space)
+    if not proves:
+        outside = free_space(layout)
+        hidden = hidden.intersection(outside) if outside is not None else hidden
+        hidden = hidden.buffer(-r_min)
+    return bool(hidden.area < LEAST_AREA)
+
+
+def crossed_way(source: int, phi: float, outcome: Outcome, reach: float) -> Crossed:
+    """Return what was swept on a way.
+
+    Parameters
+    ----------
+    source : int
+        Id of the vertex where it began.
+    phi : float
+        Its direction, in radians in the map's frame.
+    outcome : Outcome
+        What came of it.
+    reach : float
+        Its length by the map, in metres; 0 where that is not known.
+    """
+    crossing = outcome.arrival.crossing
+    if crossing is None:
+        return Crossed(source, phi, shapely.Polygon())
+    scale = reach / max(crossing.distance, CRUMB) if reach else 1.0
+    return Crossed(source, phi, swept_along(phi, crossing.swept, scale, FARTHEST))

@@ -1,0 +1,1 @@
+"""Routes: the ways of a map as behaviours, planned and driven."""

@@ -1,0 +1,223 @@
+"""Drive a route in a world, and hold the arrival against the truth."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from behaviours.automaton import UnforeseenError
+from behaviours.parameters import Parameters
+from behaviours.port import Align, Side, run
+from topomap.bodies import body_drift, make_body
+from topomap.closers import make_closer
+from topomap.comparison import Comparison, compare_maps
+from topomap.errors import InputError, JobError
+from topomap.headings import quarter_of
+from topomap.incursions.crossing import axis_near
+from topomap.parts import base_map, compare_wholes, in_one
+from topomap.routes.journey import Event, Journey
+from topomap.routes.planning import Route, plan_route
+from topomap.routes.steps import follow_on
+from topomap.truth import true_maps
+from worlds.pose import Pose
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from behaviours.port import Behaviour, Body
+    from topomap.topological_map import Edge, TopologicalMap
+    from worlds.world import World
+
+__all__ = ["Drive", "Matched", "drive_route", "match_world", "set_down"]
+
+ARRIVED = 0.5
+"""A robot has arrived that stands so near to the vertex, in metres."""
+RUN_UP = 0.3
+"""Most of the wall before its start vertex that a robot is given, in metres."""
+
+
+@dataclass(frozen=True, eq=False)
+class Matched:
+    """A map laid over the world that it is of."""
+
+    world: World
+    chart: TopologicalMap
+    truth: TopologicalMap
+    """All loops of the world."""
+    comparison: Comparison
+    pairs: dict[int, int]
+    """Vertex ids of the map to those of the truth."""
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """What came of driving a route."""
+
+    routes: tuple[Route, ...]
+    """Each one planned; the last was driven to its end if the robot arrived."""
+    events: tuple[Event, ...]
+    """What was not as the map said."""
+    claims: bool
+    """Whether the robot says that it has arrived."""
+    arrived: bool
+    """Whether it has, in truth."""
+    failure: str
+    """Why the robot gave up; empty where it did not."""
+    travelled: float
+    """True way, in metres."""
+    collisions: int
+
+
+def match_world(chart: TopologicalMap, world: World) -> Matched:
+    """Lay a map over the truth of its world.
+
+    Raises
+    ------
+    JobError
+        If no vertex of the map is surely one of the world's.
+    """
+    robot = chart.parameters or Parameters()
+    loops = true_maps(world, robot)
+    truth = in_one(loops)
+    comparison = compare_wholes(chart, truth)
+    if not comparison.correct:
+        # A map of one loop: ids count on from loop to loop.
+        first = 0
+        for loop in loops:
+            found = compare_maps(base_map(chart), loop)
+            if found.correct:
+                pairs = {i: first + j for i, j in found.pairs}
+                return Matched(world, chart, truth, found, pairs)
+            first += len(loop.vertices)
+        raise JobError("the map is not that of the world: nothing to drive by")
+    return Matched(world, chart, truth, comparison, dict(comparison.pairs))
+
+
+def drive_route(
+    matched: Matched,
+    source: int,
+    target: int,
+    rng: np.random.Generator,
+    *,
+    body: str = "ideal",
+    sigma: float = 0.06,
+    cost: str = "metres",
+    closing: str = "likelihood",
+) -> Drive:
+    """Set a robot down at one vertex of its map and let it drive to another.
+
+    Parameters
+    ----------
+    matched : Matched
+        The map and its world, from `match_world`.
+    source, target : int
+        Ids of vertices of the map.
+    rng : numpy.random.Generator
+        Draws all of the body's errors.
+    body : str
+        See `topomap.bodies`.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+    cost : {"metres", "risk"}
+        What the route has least of.
+    closing : str
+        Closes the loops of islands that the map lacks; see `topomap.closers`.
+
+    Returns
+    -------
+    Drive
+        The robot is set down beside the wall before its start, follows it to its
+        vertex and then drives; it plans anew when something is not as the map says.
+
+    Raises
+    ------
+    InputError
+        If a vertex, the body or the cost does not exist, or the start is not part
+        of the world.
+    JobError
+        If there is no way at all.
+    """
+    first = plan_route(matched.chart, source, target, cost)
+    parameters = matched.chart.parameters or Parameters()
+    pose, wall = set_down(matched, source)
+    robot = make_body(
+        body, matched.world, pose, rng, sigma=sigma, parameters=parameters
+    )
+    journey = Journey(
+        matched.chart,
+        source,
+        wall.source_exit,
+        body_drift(body, sigma),
+        lambda: make_closer(closing, sigma, parameters),
+    )
+    failure, routes = "", [first]
+    try:
+        run(_walk_up(journey, wall), robot)
+        routes = run(journey.go_to(target, cost), robot)
+    except (JobError, UnforeseenError) as error:
+        failure = str(error)
+    claims = not failure
+    return Drive(
+        tuple(routes),
+        tuple(journey.events),
+        claims,
+        claims and _is_at(matched, robot, target),
+        failure,
+        robot.travelled,
+        robot.collisions,
+    )
+
+
+def _walk_up(journey: Journey, wall: Edge) -> Behaviour[None]:
+    """Square up with the wall before the start, and follow it to its end."""
+    layout = journey.layout
+    yield Align(Side.RIGHT)
+    heading = wall.source_exit
+    sigma = journey.drift.sigma
+    arrival = yield from follow_on(
+        layout.parameters, None, heading, heading, Side.RIGHT, sigma
+    )
+    vertex = layout.chart.vertices[layout.index[wall.target]]
+    if arrival.corner is not vertex.type:
+        seen = arrival.corner.name if arrival.corner else "no corner"
+        raise JobError(
+            f"the robot did not find its start: {seen} where vertex {vertex.id} is "
+            f"{vertex.type.name}"
+        )
+    journey.heading = arrival.heading
+
+
+def set_down(matched: Matched, vertex: int) -> tuple[Pose, Edge]:
+    """Return a pose beside the wall before a vertex, and the map's edge along it.
+
+    Raises
+    ------
+    InputError
+        If the vertex is none of the world's.
+    """
+    wall = next(
+        (e for e in matched.chart.edges if e.target == vertex and not e.is_incursion),
+        None,
+    )
+    goal = matched.pairs.get(vertex)
+    if wall is None or goal is None:
+        raise InputError("", "source", vertex, "a vertex of the world at a wall's end")
+    edge = next(e for e in matched.truth.edges if e.target == goal)
+    places = {v.id: v.position or (0.0, 0.0) for v in matched.truth.vertices}
+    x, y = places[goal]
+    r0 = (matched.chart.parameters or Parameters()).r0
+    back = min(r0 + RUN_UP, 0.6 * edge.fused.value)
+    heading = axis_near(edge.source_exit)
+    along = (1, 0, -1, 0)[quarter_of(heading)], (0, 1, 0, -1)[quarter_of(heading)]
+    return Pose(x - back * along[0], y - back * along[1], heading), wall
+
+
+def _is_at(matched: Matched, robot: Body, vertex: int) -> bool:
+    """Tell whether a robot stands at a vertex, in truth."""
+    goal = matched.pairs.get(vertex)
+    pose = getattr(robot, "pose", None)
+    if goal is None or pose is None:
+        return False
+    place = next(v.position for v in matched.truth.vertices if v.id == goal)
+    return place is not None and math.dist(pose[:2], place) <= ARRIVED
