@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from topomap.files.world_files import load_world, save_world
     from topomap.mapping import Build, build_map
     from topomap.merging import merge_maps
-    from topomap.team.exploring import explore
     from topomap.routes.planning import plan_route
+    from topomap.team.exploring import explore
     from topomap.topological_map import TopologicalMap
 
 __all__ = [

@@ -11,8 +11,8 @@ from topomap.cli.build import build
 from topomap.cli.compare import compare
 from topomap.cli.convert import convert
 from topomap.cli.demo import demo
-from topomap.cli.explore import explore
 from topomap.cli.doctor import doctor
+from topomap.cli.explore import explore
 from topomap.cli.explore_grid import explore_grid
 from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
