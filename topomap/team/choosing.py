@@ -83,7 +83,8 @@ def choose(
     Returns
     -------
     Choice
-        Each robot allocates all robots it knows of and goes where it sent itself.
+        Each robot allocates all robots it knows of and goes where it sent itself;
+        what another, nearer one has claimed is left out. It waits if all is claimed.
 
     Notes
     -----
@@ -108,24 +109,44 @@ def choose(
             table[i] += [OTHER_EXIT * (end != mates[k].target) for end in ends]
     if not np.isfinite(table[me]).any():
         return Choice(None, False, "no unexplored exit can be reached")
-    found = allocate(table, allocator)
-    j = found.assignment[me]
-    if j is None:
-        j = int(np.argmin(table[me]))
-    nearer = [
-        k
-        for i, k in enumerate(crew)
-        if k != robot
-        and mates[k].target == ends[j]
-        and (table[i, j], k) < (table[me, j], robot)
-    ]
-    rank = int((table[:, j] < table[me, j]).sum())
+    claims = {k: mate.target for k, mate in mates.items()}
+    taken: dict[int, int] = {}
+    while len(taken) < len(ends):
+        left = table.copy()
+        left[me, list(taken)] = np.inf
+        j = allocate(left, allocator).assignment[me]
+        if j is None:
+            break
+        owner = next(
+            (
+                k
+                for i, k in enumerate(crew)
+                if claims.get(k) == ends[j] and (table[i, j], k) < (table[me, j], robot)
+            ),
+            None,
+        )
+        if owner is None:
+            return Choice(ends[j], False, _reason(frontiers, table, me, j))
+        taken[j] = owner
+    j = min(taken, key=lambda one: (table[me, one], one))
+    return Choice(
+        ends[j],
+        True,
+        f"robot {taken[j]} is on its way to {_reason(frontiers, table, me, j)}",
+    )
+
+
+def _reason(
+    frontiers: list[TopologicalFrontier],
+    table: NDArray[np.float64],
+    me: int,
+    j: int,
+) -> str:
+    """Say in words where a robot goes and how it stands to the others."""
     frontier = frontiers[j]
-    reason = (
+    rank = int((table[:, j] < table[me, j]).sum())
+    return (
         f"{frontier.promise} beyond exit {90 * frontier.exit} of vertex "
-        f"{frontier.vertex}, {table[me, j]:.1f} m; {rank} of {len(crew) - 1} nearer; "
+        f"{frontier.vertex}, {table[me, j]:.1f} m; {rank} of {len(table) - 1} nearer; "
         f"{len(frontiers)} open"
     )
-    if nearer:
-        return Choice(ends[j], True, f"robot {nearer[0]} is on its way to {reason}")
-    return Choice(ends[j], False, reason)

@@ -196,6 +196,7 @@ def _fill(
     count = max(abs(a[0] - b[0]), abs(a[1] - b[1])) + 1
     rows = np.rint(np.linspace(a[0], b[0], count)).astype(int)
     columns = np.rint(np.linspace(a[1], b[1], count)).astype(int)
+    reach += 1e-9  # a radius of three cells holds the third
     far = int(np.floor(reach))
     for i in range(-far, far + 1):
         for j in range(-far, far + 1):
