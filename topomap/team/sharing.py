@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING
 from behaviours.vertices import VertexType
 from behaviours.ways import Way, Ways, turned
 from merge.options import Options
+from merge.pairwise import match
 from topomap.chart import Chart, Place
-from topomap.embedding import embedded
-from topomap.merging import merge_maps
+from topomap.merging import to_graph
 from topomap.team.messages import LinkRow, MapReport, Name, PlaceRow
 
 if TYPE_CHECKING:
@@ -125,7 +125,7 @@ def learn(
 
     Notes
     -----
-    By names it takes O(V); between strangers what `topomap.merge_maps` takes.
+    By names it takes O(V); between strangers what `merge.match` takes.
     """
     common = _turn_by_names(known, report)
     if common is None:
@@ -210,22 +210,18 @@ def _meet(
     theirs = chart_of(report)
     if min(len(known.chart.places), len(theirs.places)) < LEAST:
         return Verdict(False, f"a map has fewer than {LEAST} vertices")
-    mine = embedded(known.chart.as_map(parameters, sigma))
-    other = embedded(theirs.as_map(parameters, sigma))
-    merge = merge_maps([mine, other], Options())
-    motion = merge.transforms[0]
-    if not merge.accepted or motion is None:
-        return Verdict(False, merge.reason)
+    mine = known.chart.as_map(parameters, sigma)
+    other = theirs.as_map(parameters, sigma)
+    found = match(to_graph(mine), to_graph(other), Options())
+    if not found.accepted or found.transform is None:
+        return Verdict(False, f"it does not surely fit: {found.reason}")
     numbers = [row.number for row in report.places]
-    group = next(group for group in merge.fleet.groups if 0 in group.members)
-    where = [vertices.tolist() for vertices in group.vertices]
-    at = {place: mine.vertices[k].id for k, place in enumerate(where[0])}
     pairs = [
-        (numbers[other.vertices[k].id], at[place])
-        for k, place in enumerate(where[1])
-        if place in at
+        (numbers[other.vertices[b].id], mine.vertices[a].id)
+        for a, b in found.pairs.tolist()
     ]
-    return lay_over(known, report, round(motion.angle / (math.pi / 2)) % 4, pairs)
+    turn = round(found.transform.angle / (math.pi / 2)) % 4
+    return lay_over(known, report, turn, pairs)
 
 
 def _insert(chart: Chart, report: MapReport, turn: int) -> dict[int, int]:
