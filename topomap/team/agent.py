@@ -72,11 +72,12 @@ class Agent:
     """Whether it knows of nothing that is open, and is where it wants to be."""
     done_at: float = 0.0
     events: list[Event] = field(default_factory=list)
+    report: bytes = b""
+    """Its newest map, as it tells it."""
     _target: tuple[int, int] | None = None
     _is_venturing: bool = False
     _version: int = 0
     _state: tuple[int, int, int] = (0, 0, 0)
-    _report: bytes = b""
     _beacons: int = 0
     _next_beacon: float = 0.0
     _next_map: float = 0.0
@@ -120,7 +121,7 @@ class Agent:
             )
         if self._version and self.now >= self._next_map and self._is_missed():
             self._next_map = self.now + BEAT
-            self.send(self._report)
+            self.send(self.report)
 
     def learn(self) -> None:
         """Merge what others have told; what is refused is tried again when it grew."""
@@ -199,7 +200,7 @@ class Agent:
         if state != self._state:
             self._state = state
             self._version += 1
-            self._report = encode(report_of(self.known, self._version))
+            self.report = encode(report_of(self.known, self._version))
             self._next_map = self.now
 
 

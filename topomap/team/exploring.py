@@ -240,6 +240,7 @@ def _robot_run(
         is_done=agent.is_done,
         lost=member.lost,
         knows=tuple(sorted(agent.known.turns)),
+        told=len(agent.report),
         trail=tuple(member.trail),
         collisions=member.body.collisions,
     )

@@ -34,6 +34,8 @@ class RobotRun:
     """Why it broke down or gave up; empty if it did not."""
     knows: tuple[int, ...]
     """Robots whose maps are part of its own."""
+    told: int
+    """Bytes of its newest map, as it was told to others."""
     trail: tuple[tuple[float, float, float], ...]
     """Time in seconds, x and y in metres, in the world's frame: its whole way."""
     collisions: int
