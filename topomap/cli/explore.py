@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from topomap.team.result import TeamRun
     from worlds.world import World
 
-__all__ = ["explore"]
+__all__ = ["explore", "sentence", "summary", "write_run"]
 
 
 def explore(
@@ -78,7 +78,7 @@ def explore(
         )
         raise JobError(f"not explored after {run.simulated:.0f} s. {why}")
     if not as_json:
-        say(_sentence(run, output))
+        say(sentence(run, output))
         for file in files:
             say(f"  {file}")
 
@@ -141,7 +141,7 @@ def write_run(run: TeamRun, world: World, folder: Path) -> list[Path]:
     return [*written, *(folder / n for n in ("ways.svg", "run.gif", "history.json"))]
 
 
-def _sentence(run: TeamRun, output: Path) -> str:
+def sentence(run: TeamRun, output: Path) -> str:
     """Say in one line what was found."""
     verdict = "correct" if run.correct else "WRONG"
     maps = "one map" if len(run.merged) == 1 else f"{len(run.merged)} maps"

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
-from behaviours.port import Outcome, Primitive
 from topomap.exploring import Exploration, first_vertex, go, venture
 from topomap.team.choosing import Choice, Costs, Mate, choose
 from topomap.team.frontiers import way_lengths
 from topomap.team.messages import Beacon, MapReport, decode, encode
 from topomap.team.sharing import Knowledge, learn, report_of
+from topomap.team.tasks import Event, Task, Wait
 
 if TYPE_CHECKING:
-    from behaviours.port import Behaviour
+    from behaviours.port import Behaviour, Outcome
 
-__all__ = ["Agent", "Event", "Task", "Wait", "explore_with_others"]
+__all__ = ["Agent", "explore_with_others"]
 
 BEAT = 5.0
 """Seconds between two beacons of a robot."""
@@ -26,32 +26,6 @@ LONGEST_WAIT = 60.0
 """Seconds after which a robot goes where another should have gone."""
 GROWTH = 3
 """Vertices that two strangers' maps must grow by until they are compared again."""
-
-
-@dataclass(frozen=True, slots=True)
-class Wait:
-    """Stand still for a while."""
-
-    seconds: float
-
-
-Task: TypeAlias = Generator[Primitive | Wait, Outcome | None, None]
-
-
-@dataclass(frozen=True, slots=True)
-class Event:
-    """Something a robot decided, and why."""
-
-    time: float
-    """In seconds."""
-    robot: int
-    kind: str
-    """``goes``, ``waits``, ``merges``, ``refuses`` or ``ends``."""
-    reason: str
-    target: tuple[int, int] | None = None
-    """Vertex and exit, in its own map, for ``goes`` and ``waits``."""
-    other: int | None = None
-    """The other robot, for ``merges`` and ``refuses``."""
 
 
 @dataclass(slots=True)

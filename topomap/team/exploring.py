@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING, cast
 
 from topomap.bodies import body_parameters, make_body
 from topomap.closers import make_closer
-from topomap.comparison import compare_maps
-from topomap.embedding import embedded
 from topomap.errors import InputError
 from topomap.exploration.registry import find_allocator
 from topomap.exploring import Exploration
 from topomap.mapping import MAX_SIGMA, MAX_WALLS
 from topomap.team.agent import Agent
 from topomap.team.channel import Channel, Radio
+from topomap.team.collecting import merge_all, robot_run
 from topomap.team.faults import Fault
 from topomap.team.grid_adapter import grid_lengths
-from topomap.team.result import MergedMap, RobotRun, TeamRun
+from topomap.team.result import TeamRun
 from topomap.team.scheduling import Member, run_by_clocks, run_in_arena
-from topomap.team.sharing import Knowledge, learn, report_of
+from topomap.team.sharing import Knowledge
 from topomap.team.starts import check_starts, choose_starts
 from topomap.truth import true_maps
 
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.parameters import Parameters
-    from topomap.topological_map import TopologicalMap
     from worlds.ideal import IdealBody
     from worlds.physical import PhysicalBody
     from worlds.pose import Pose
@@ -164,10 +162,10 @@ def explore(
     )
     return TeamRun(
         tuple(
-            _robot_run(member, start, truth)
+            robot_run(member, start, truth)
             for member, start in zip(team, starts, strict=True)
         ),
-        _merged(team, parameters, sigma, truth),
+        merge_all(team, parameters, sigma, truth),
         tuple(
             sorted(
                 (event for member in team for event in member.agent.events),
@@ -222,50 +220,3 @@ def _agent(
         lambda: air.receive(k, agent.now),
     )
     return agent
-
-
-def _robot_run(
-    member: Member, start: Pose, truth: tuple[TopologicalMap, ...]
-) -> RobotRun:
-    """Return what one robot found."""
-    agent = member.agent
-    found = agent.found
-    chart = embedded(found.chart.as_map(found.parameters, found.sigma))
-    return RobotRun(
-        map=chart,
-        comparison=compare_maps(chart, *truth),
-        start=start,
-        travelled=member.body.travelled,
-        walls=found.walls,
-        is_done=agent.is_done,
-        lost=member.lost,
-        knows=tuple(sorted(agent.known.turns)),
-        told=len(agent.report),
-        trail=tuple(member.trail),
-        collisions=member.body.collisions,
-    )
-
-
-def _merged(
-    team: Sequence[Member],
-    parameters: Parameters,
-    sigma: float,
-    truth: tuple[TopologicalMap, ...],
-) -> tuple[MergedMap, ...]:
-    """Merge what the robots bring home; those out there are lost with their maps."""
-    groups: list[tuple[Knowledge, list[int]]] = []
-    for member in team:
-        if member.is_out or not member.agent.found.chart.places:
-            continue
-        report = report_of(member.agent.known, 1)
-        for known, robots in groups:
-            if learn(known, report, parameters, sigma).accepted:
-                robots.append(report.sender)
-                break
-        else:
-            groups.append((member.agent.known, [report.sender]))
-    found = []
-    for known, robots in groups:
-        chart = embedded(known.chart.as_map(parameters, sigma))
-        found.append(MergedMap(tuple(robots), chart, compare_maps(chart, *truth)))
-    return tuple(sorted(found, key=lambda one: -len(one.map.vertices)))

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from topomap.comparison import Comparison
-    from topomap.team.agent import Event
     from topomap.team.channel import Traffic
+    from topomap.team.tasks import Event
     from topomap.topological_map import TopologicalMap
     from worlds.pose import Pose
 

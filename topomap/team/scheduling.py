@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
-from topomap.team.agent import Agent, Task, Wait, explore_with_others
+from topomap.team.agent import Agent, explore_with_others
+from topomap.team.tasks import Task, Wait
 from worlds.physical import PhysicalBody
 
 if TYPE_CHECKING:
