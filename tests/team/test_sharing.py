@@ -62,6 +62,9 @@ def test_to_learn_again_changes_nothing():
     assert again.accepted
     assert again.added == 0
     assert as_map(one) == before
+    size = len(encode(report_of(one, 1)))
+    learned(one, other)
+    assert len(encode(report_of(one, 1))) == size
 
 
 def test_to_be_told_ones_own_map_changes_nothing():

@@ -9,11 +9,11 @@ from topomap.comparison import compare_maps
 from topomap.embedding import embedded
 from topomap.team.result import MergedMap, RobotRun
 from topomap.team.sharing import Knowledge, learn, report_of
+from topomap.topological_map import TopologicalMap
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from topomap.team.scheduling import Member
-    from topomap.topological_map import TopologicalMap
     from worlds.pose import Pose
 
 __all__ = ["merge_all", "robot_run"]
@@ -25,7 +25,9 @@ def robot_run(
     """Return what one robot found."""
     agent = member.agent
     found = agent.found
-    chart = embedded(found.chart.as_map(found.parameters, found.sigma))
+    chart = TopologicalMap((), (), found.parameters)
+    if found.chart.places:
+        chart = embedded(found.chart.as_map(found.parameters, found.sigma))
     return RobotRun(
         map=chart,
         comparison=compare_maps(chart, *truth),

@@ -166,11 +166,13 @@ def lay_over(
         for name in row.names:
             if name[0] != known.robot:
                 known.names[name] = chart.now(number[row.number])
+    for vertex in number.values():
+        chart.became.pop(vertex, None)  # nobody was ever told of these numbers
     known.turns[report.sender] = turn % 4
     for robot, more in report.turns.items():
         if robot != known.robot:
             known.turns[robot] = (more + turn) % 4
-    return Verdict(True, "", len(set(number.values()) - same.keys()))
+    return Verdict(True, "", len(number) - len(same))
 
 
 def _turn_by_names(known: Knowledge, report: MapReport) -> int | None:
