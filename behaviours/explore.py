@@ -23,7 +23,7 @@ Preconditions: none. Postcondition: no exit of the map is unexplored, or the rob
 has given up. Arguments: the robot's lengths. Returns the map.
 
 The states are behaviours that need the map, and so live with it
-(`topomap.explore`): LOOP walks along a wall until the base loop is known to be
+(`topomap.exploring`): LOOP walks along a wall until the base loop is known to be
 closed; GOTO drives to the nearest unexplored exit by the shortest way in the map;
 OUT goes through it to the next vertex; PLACE finds out whether that is one met
 before, and closes the base loop there if it is a new one. So a base loop is closed

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from topomap.mapping import Build, build_map
     from topomap.merging import merge_maps
     from topomap.routes.planning import plan_route
+    from topomap.team.exploring import explore
     from topomap.topological_map import TopologicalMap
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "TopologicalMap",
     "build_map",
     "compare_maps",
+    "explore",
     "load_map",
     "load_world",
     "merge_maps",
@@ -37,6 +39,7 @@ _HOME = {
     "TopologicalMap": "topomap.topological_map",
     "build_map": "topomap.mapping",
     "compare_maps": "topomap.comparison",
+    "explore": "topomap.team.exploring",
     "load_map": "topomap.files.map_files",
     "load_world": "topomap.files.world_files",
     "merge_maps": "topomap.merging",

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.port import Body
+    from worlds.arena import Arena
     from worlds.pose import Pose
     from worlds.profiles import Profile
     from worlds.world import World
@@ -84,8 +85,9 @@ def make_body(
     *,
     sigma: float = 0.06,
     parameters: Parameters | None = None,
+    arena: Arena | None = None,
 ) -> Body:
-    """Set a body down in a world, alone.
+    """Set a body down in a world.
 
     Parameters
     ----------
@@ -102,6 +104,8 @@ def make_body(
         Standard deviation of a leg's measured length, as a part of the length.
     parameters : Parameters, optional
         The lengths it keeps; `body_parameters` where None.
+    arena : worlds.arena.Arena, optional
+        Where other physical bodies are too; alone where None.
 
     Returns
     -------
@@ -122,7 +126,7 @@ def make_body(
     from worlds.physical import PhysicalBody
 
     return PhysicalBody(
-        Arena(world), start, profile, rng, sigma=sigma, parameters=parameters
+        arena or Arena(world), start, profile, rng, sigma=sigma, parameters=parameters
     )
 
 

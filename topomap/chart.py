@@ -67,6 +67,8 @@ class Chart:
     places: dict[int, Place] = field(default_factory=dict)
     links: dict[tuple[int, int], Link] = field(default_factory=dict)
     """By each of their two ends."""
+    became: dict[int, int] = field(default_factory=dict)
+    """Vertices that were joined to another, each with that one."""
     _numbers: Iterator[int] = field(default_factory=count)
 
     def add_place(self, place: Place) -> int:
@@ -74,6 +76,12 @@ class Chart:
         number = next(self._numbers)
         self.places[number] = place
         return number
+
+    def now(self, vertex: int) -> int:
+        """Return the vertex that one has become, itself if it was never joined."""
+        while vertex in self.became:
+            vertex = self.became[vertex]
+        return vertex
 
     def add_link(
         self, source: tuple[int, int], target: tuple[int, int], behaviour: str
@@ -128,8 +136,9 @@ class Chart:
             there.lengths += link.lengths
             there.shifts += link.shifts
             there.clearance = min(there.clearance, link.clearance)
-        for vertex in pairs:
+        for vertex, other in pairs.items():
             del self.places[vertex]
+            self.became[vertex] = other
 
     def unexplored(self) -> Iterator[tuple[int, int]]:
         """Yield every vertex and exit that no edge has been walked through."""
@@ -146,14 +155,14 @@ class Chart:
         if not targets:
             return None
         ways = nx.single_source_dijkstra_path_length(
-            self._graph(), here, weight="length"
+            self.graph(), here, weight="length"
         )
         goal = min(targets, key=lambda k: (ways.get(k, math.inf), k))
         return goal, targets[goal]
 
     def route(self, here: int, there: int) -> list[tuple[int, int]]:
         """Return the shortest way: the vertices to leave, and by which exits."""
-        graph = self._graph()
+        graph = self.graph()
         path = nx.dijkstra_path(graph, here, there, weight="length")
         steps = []
         for a, b in pairwise(path):
@@ -161,7 +170,7 @@ class Chart:
             steps.append(ends[0] if ends[0][0] == a else ends[1])
         return steps
 
-    def _graph(self) -> nx.Graph[int]:
+    def graph(self) -> nx.Graph[int]:
         """Return the map with the shortest link between any two vertices."""
         graph: nx.Graph[int] = nx.Graph()
         graph.add_nodes_from(self.places)

@@ -12,7 +12,7 @@ from behaviours.vertices import VertexType
 from topomap.boundary import Walk, map_boundary
 from topomap.embedding import embedded
 from topomap.errors import InputError, JobError
-from topomap.explore import explore_halls
+from topomap.exploring import explore_halls
 from topomap.folding import fold
 
 if TYPE_CHECKING:

@@ -100,6 +100,8 @@ class Arena:
         Its walls are those of all rings.
     time_step : float
         Seconds between two decisions of a robot.
+    ghosts : bool
+        Whether robots pass through each other, unseen, as if each were alone.
 
     Raises
     ------
@@ -107,17 +109,20 @@ class Arena:
         If the time step is not a positive number of seconds.
     """
 
-    def __init__(self, world: World, time_step: float = 0.02) -> None:
+    def __init__(
+        self, world: World, time_step: float = 0.02, *, ghosts: bool = False
+    ) -> None:
         if not (math.isfinite(time_step) and time_step > 0):
             raise ValueError(f"time_step must be finite and above 0; got {time_step}")
         self.world = world
         self.time_step = time_step
+        self.ghosts = ghosts
         self.ticks = 0
         self.discs: list[Disc] = []
         self.riders: list[Rider] = []
         """The insides of the robots; each joins by itself."""
         self.places: NDArray[np.float64] = np.zeros((0, 3))
-        """Centre and radius of each robot, in metres."""
+        """Centre and radius of each robot, in metres; no ray meets a radius below 0."""
         self.walls = np.array(
             [
                 (*a, *b)
@@ -167,11 +172,14 @@ class Arena:
         shape = pymunk.Circle(body, radius)
         shape.collision_type = ROBOT
         shape.friction = 0.5
+        if self.ghosts:
+            shape.filter = pymunk.ShapeFilter(group=1)
         self._space.add(body, shape)
         disc = Disc(body, radius, len(self.discs))
         self._disc_of[shape] = disc
         self.discs.append(disc)
-        self.places = np.vstack([self.places, (pose.x, pose.y, radius)])
+        seen = -1.0 if self.ghosts else radius
+        self.places = np.vstack([self.places, (pose.x, pose.y, seen)])
         needed = math.ceil(speed * self.time_step / STRIDE)
         self._substeps = max(self._substeps, needed)
         return disc

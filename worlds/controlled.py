@@ -106,11 +106,15 @@ class ControlledBody(ABC):
         late = self.clock - self._since > PATIENCE
         return self._end(self._outcome(Reason.STUCK)) if late else None
 
+    def halt(self) -> None:
+        """Drop the primitive, and stop the wheels."""
+        self._control = None
+        self.robot.drive(0.0, 0.0)
+
     def _end(self, outcome: Outcome) -> Outcome:
         """Let go of the primitive."""
-        self._control = None
+        self.halt()
         robot = self.robot
-        robot.drive(0.0, 0.0)
         swept = pieces(robot.sweep, self._start, robot.odometer)
         return replace(outcome, swept=swept)
 

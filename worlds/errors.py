@@ -20,3 +20,7 @@ class WorldError(ValueError):
         """Which part of the world is at fault, such as ``outer[3]``."""
         self.fault = fault
         """What is wrong with it, with the value and what was expected."""
+
+    def __reduce__(self) -> tuple[type[WorldError], tuple[str, str]]:
+        """Let it come back from another process."""
+        return type(self), (self.field, self.fault)

@@ -12,6 +12,7 @@ from topomap.cli.compare import compare
 from topomap.cli.convert import convert
 from topomap.cli.demo import demo
 from topomap.cli.doctor import doctor
+from topomap.cli.explore import explore
 from topomap.cli.explore_grid import explore_grid
 from topomap.cli.merge import merge
 from topomap.cli.reproduce import reproduce
@@ -35,6 +36,7 @@ app.command()(merge)
 app.command()(show)
 app.command()(convert)
 app.command()(allocate)
+app.command()(explore)
 app.command()(explore_grid)
 app.command()(reproduce)
 app.command()(doctor)

@@ -11,6 +11,7 @@ __all__ = ["demo"]
 
 SEED = 7
 CORNERS = 24
+ROBOTS = 4
 
 
 def demo(
@@ -18,7 +19,7 @@ def demo(
         Path, typer.Option("-o", "--output", help="Folder of the results.")
     ] = Path("demo"),
 ) -> None:
-    """Make a world, let a physical robot map it, and draw what it found."""
+    """Let a physical robot map a world, and a team explore a building."""
     import numpy as np
 
     import worlds
@@ -48,3 +49,27 @@ def demo(
     )
     for name in ("world.json", "world.svg", "map.json", "build.svg", "run.html"):
         say(f"  {output / name}")
+    _show_team(output / "team")
+
+
+def _show_team(folder: Path) -> None:
+    """Let robots that know nothing of each other's starts explore a building."""
+    import numpy as np
+
+    import worlds
+    from topomap.cli.console import progress, say
+    from topomap.cli.explore import sentence, write_run
+    from topomap.files.atomic import make_folder
+    from topomap.files.world_files import save_world
+    from topomap.team.exploring import explore
+
+    make_folder(folder)
+    rng = np.random.default_rng(SEED)
+    building = worlds.make("rooms", rng)
+    save_world(building, folder / "building.json")
+    with progress("robots without a common frame explore a building"):
+        run = explore(building, rng, robots=ROBOTS)
+    files = write_run(run, building, folder)
+    say(sentence(run, folder))
+    for file in files:
+        say(f"  {file}")

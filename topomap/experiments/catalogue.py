@@ -22,6 +22,7 @@ MODULES = (
     "topomap.experiments.incursions",
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
+    "topomap.experiments.team",
     "topomap.experiments.merging_fleets",
     "topomap.experiments.merging_plans",
     "topomap.experiments.replaying",

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from topomap.exploration.exploring import Run
 
-__all__ = ["animate"]
+__all__ = ["animate", "colours"]
 
 WALL, UNSEEN, SEEN = (40, 40, 40), (190, 190, 190), (255, 255, 255)
 """Colours: obstacles, what is not known, what is."""
@@ -67,7 +67,7 @@ def animate(
             "scale", "", min(scale, frames), "scale and frames of at least 1"
         )
     shown = np.unique(np.linspace(0, len(run.trace) - 1, frames).round().astype(int))
-    colours = _colours(run.trace.shape[1])
+    inks = colours(run.trace.shape[1])
     known = np.zeros(grid.shape, dtype=bool)
     pictures, last = [], 0
     for end in shown:
@@ -75,7 +75,7 @@ def animate(
             for row, column in cells:
                 known |= visible_cells(grid, (int(row), int(column)), reach)
         last = end + 1
-        pixels = _picture(grid, known, run.trace[: end + 1], colours)
+        pixels = _picture(grid, known, run.trace[: end + 1], inks)
         big = pixels.repeat(scale, axis=0).repeat(scale, axis=1)
         pictures.append(Image.fromarray(big))
     pictures[0].save(
@@ -101,7 +101,7 @@ def _picture(
     return pixels
 
 
-def _colours(count: int) -> NDArray[np.uint8]:
+def colours(count: int) -> NDArray[np.uint8]:
     """Return as many colours, evenly around the circle of hues."""
     turn = np.arange(count)[:, None] / count + np.array([0, 1 / 3, 2 / 3])
     wave = np.clip(np.abs(turn % 1.0 * 6 - 3) - 1, 0, 1)

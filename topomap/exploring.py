@@ -28,7 +28,17 @@ if TYPE_CHECKING:
     from behaviours.port import Behaviour
     from behaviours.ways import Ways
 
-__all__ = ["Exploration", "RefutedError", "explore_halls"]
+__all__ = [
+    "Exploration",
+    "RefutedError",
+    "close_loop",
+    "explore_halls",
+    "first_vertex",
+    "go",
+    "goto",
+    "is_open_loop",
+    "venture",
+]
 
 ERROR = 1e-3
 """A vertex is taken for another, or for a new one, when it is less likely wrong."""
@@ -124,7 +134,7 @@ def explore_halls(
         State.MTW: lambda _: move_to_wall(parameters),
         State.WF: lambda _: _begin(found, _second_vertex(parameters)),
         State.HF: lambda _: _begin(found, follow_hall(parameters)),
-        State.LOOP: lambda _: _close_loop(found),
+        State.LOOP: lambda _: close_loop(found),
         State.GOTO: lambda _: _goto_exit(found),
         State.OUT: step_out,
         State.PLACE: place,
@@ -134,7 +144,7 @@ def explore_halls(
         try:
             yield from perform(EXPLORE, actions, state)
         except RefutedError:
-            is_open = _is_open_loop(found.chart, found.here)
+            is_open = is_open_loop(found.chart, found.here)
             state = State.LOOP if is_open else State.GOTO
         else:
             return found
@@ -165,13 +175,31 @@ def _begin(found: Exploration, behaviour: Behaviour[Arrival]) -> Behaviour[None]
     found.heading = arrival.facing % 4
 
 
+def first_vertex(found: Exploration) -> Behaviour[None]:
+    """Come to the first vertex, and close its base loop if it is on one."""
+    parameters = found.parameters
+    if (yield from _is_in_hall(parameters)):
+        yield from _begin(found, follow_hall(parameters))
+    else:
+        yield from move_to_wall(parameters)
+        yield from _begin(found, follow_broken_wall(parameters, None))
+    if is_open_loop(found.chart, found.here):
+        yield from close_loop(found)
+
+
+def venture(found: Exploration, quarters: int) -> Behaviour[None]:
+    """Take an unexplored exit, and find out where it leads."""
+    there = yield from _step_out(found, quarters)
+    yield from _identify(found, there)
+
+
 def _goto_exit(found: Exploration) -> Behaviour[int | None]:
     """GOTO: drive to the nearest unexplored exit, if any is left, and return it."""
     target = found.chart.nearest_unexplored(found.here)
     if target is None:
         return None
     vertex, quarters = target
-    yield from _goto(found, vertex)
+    yield from goto(found, vertex)
     return quarters
 
 
@@ -193,7 +221,7 @@ def _leave(
     return Place(arrival.type, turned(arrival.ways, -quarters)), arrival
 
 
-def _go(found: Exploration, quarters: int) -> Behaviour[None]:
+def go(found: Exploration, quarters: int) -> Behaviour[None]:
     """GOTO: walk a known edge, and measure it once more."""
     places, source = found.chart.places, found.here
     link = found.chart.links[source, quarters]
@@ -254,12 +282,12 @@ def _identify(found: Exploration, vertex: int) -> Behaviour[bool]:
         if not recognition.is_sure(found.error):
             best, _ = recognition.candidates[0]
             telling = _telling_way(chart, vertex, best)
-            if _is_open_loop(chart, vertex):
-                yield from _goto(found, vertex)
-                yield from _close_loop(found)
+            if is_open_loop(chart, vertex):
+                yield from goto(found, vertex)
+                yield from close_loop(found)
                 continue
             if telling is not None:
-                yield from _goto(found, telling[0])
+                yield from goto(found, telling[0])
                 unsure.insert(-1, (yield from _step_out(found, telling[1])))
                 continue
         unsure.pop()
@@ -267,19 +295,19 @@ def _identify(found: Exploration, vertex: int) -> Behaviour[bool]:
             pairs = chart.pairs(vertex, recognition.known) or {}
             chart.join(pairs)
             found.here = pairs.get(found.here, found.here)
-        elif _is_open_loop(chart, vertex):
-            yield from _goto(found, vertex)
-            yield from _close_loop(found)
+        elif is_open_loop(chart, vertex):
+            yield from goto(found, vertex)
+            yield from close_loop(found)
     return found.closed
 
 
-def _goto(found: Exploration, vertex: int) -> Behaviour[None]:
+def goto(found: Exploration, vertex: int) -> Behaviour[None]:
     """GOTO: drive to a vertex by the shortest way in the map."""
     for _, quarters in found.chart.route(found.here, vertex):
-        yield from _go(found, quarters)
+        yield from go(found, quarters)
 
 
-def _is_open_loop(chart: Chart, vertex: int) -> bool:
+def is_open_loop(chart: Chart, vertex: int) -> bool:
     """Return whether a vertex is on a base loop that has not been walked."""
     ways = chart.places[vertex].ways
     return (
@@ -297,7 +325,7 @@ def _telling_way(chart: Chart, vertex: int, other: int) -> tuple[int, int] | Non
     return None
 
 
-def _close_loop(found: Exploration) -> Behaviour[bool]:
+def close_loop(found: Exploration) -> Behaviour[bool]:
     """Walk along the wall, the wall on the right, until the loop is closed."""
     places = [found.chart.places[found.here]]
     arrivals: list[Arrival] = []

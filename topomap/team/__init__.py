@@ -1,0 +1,1 @@
+"""Several robots without a common frame: what they tell, merge, and choose."""
