@@ -39,7 +39,7 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
     """
     figure.set_size_inches(13, 7)
     loops = (built.loops or (built.walk,))[:MOST_LOOPS]
-    grid = figure.add_gridspec(len(loops), 2, width_ratios=(3, 2), hspace=0.6)
+    grid = figure.add_gridspec(len(loops), 2, width_ratios=(3, 2), hspace=0.8)
     left = figure.add_subplot(grid[:, 0])
     draw_world(world, left)
     found = built.comparison
@@ -99,7 +99,7 @@ def draw_belief(walk: Walk, ax: Axes) -> Axes:
     ax.set_xlim(0, len(walk.legs) + 1)
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel("walls walked")
-    ax.set_ylabel("belief (line) up to plausibility (shade)")
+    ax.set_ylabel("belief to plausibility", fontsize=8)
     ax.set_title(f"{len(believed)} hypotheses", fontsize=9)
     if walk.period in believed:
         ax.legend(fontsize=7, loc="lower right")
