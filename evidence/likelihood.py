@@ -25,12 +25,12 @@ takes the closure back.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from evidence.starts import later_rule, later_starts
+from evidence.starts import later_starts
 from evidence.walls import Decision, Hypothesis, RelativeError, Wall
 
 if TYPE_CHECKING:
@@ -38,10 +38,15 @@ if TYPE_CHECKING:
 
     from evidence.tracking import Track
 
-__all__ = ["LikelihoodCloser", "LikelihoodRule"]
+__all__ = ["LikelihoodCloser", "LikelihoodRule", "later_rule"]
 
 LEAST_SHOWN = 1e-9
 """Hypotheses of a smaller posterior are kept, and not reported."""
+
+SLIP = 0.01
+"""Prior probability that a loop from v_0 is spoilt by a corner badly seen."""
+BOLDEST = 1e-4
+"""Largest epsilon for a later start, whatever is asked of v_0."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +111,16 @@ class LikelihoodRule:
         steps = np.arange(-2, 3) * math.log(2) / 2
         logs = -0.5 * (steps / max(self.doubt, 1e-3)) ** 2
         return np.asarray(logs - np.log(np.exp(logs).sum()))
+
+
+def later_rule(rule: LikelihoodRule) -> LikelihoodRule:
+    """Return the options of the test when it is begun at a later vertex.
+
+    Every wall must be met twice, and the error be smaller by the odds that there was
+    a reason to begin anew: many starts have many chances of being deceived.
+    """
+    epsilon = SLIP * min(rule.epsilon, BOLDEST)
+    return replace(rule, full_lap=True, epsilon=epsilon)
 
 
 @dataclass(slots=True)

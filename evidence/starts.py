@@ -2,31 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from evidence.likelihood import LikelihoodRule
-
-__all__ = ["FIRST_LATER", "later_rule", "later_starts"]
+__all__ = ["FIRST_LATER", "later_starts"]
 
 FIRST_LATER = 8
 """The first vertex after v_0 at which the test is begun once more."""
-
-SLIP = 0.01
-"""Prior probability that a loop from v_0 is spoilt by a corner badly seen."""
-BOLDEST = 1e-4
-"""Largest epsilon for a later start, whatever is asked of v_0."""
-
-
-def later_rule(rule: LikelihoodRule) -> LikelihoodRule:
-    """Return the options of the test when it is begun at a later vertex.
-
-    Every wall must be met twice, and the error be smaller by the odds that there was
-    a reason to begin anew: many starts have many chances of being deceived.
-    """
-    epsilon = SLIP * min(rule.epsilon, BOLDEST)
-    return replace(rule, full_lap=True, epsilon=epsilon)
 
 
 def later_starts(walls: int) -> list[int]:

@@ -15,8 +15,9 @@ import numpy as np
 from numba import njit
 
 from evidence.dempster_shafer import PublishedRule, Readings
+from evidence.likelihood import later_rule
 from evidence.phi import Freedom, Variance
-from evidence.starts import later_rule, later_starts
+from evidence.starts import later_starts
 from evidence.tracking import KINDS, Track, new_track, restart, step
 
 if TYPE_CHECKING:

@@ -39,7 +39,7 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
     """
     figure.set_size_inches(13, 7)
     loops = (built.loops or (built.walk,))[:MOST_LOOPS]
-    grid = figure.add_gridspec(len(loops), 2, width_ratios=(3, 2), hspace=0.6)
+    grid = figure.add_gridspec(len(loops), 2, width_ratios=(3, 2), hspace=0.8)
     draw_build(built, world, figure.add_subplot(grid[:, 0]))
     for k, walk in enumerate(loops):
         draw_belief(walk, figure.add_subplot(grid[k, 1]))

@@ -79,7 +79,7 @@ def test_every_experiment_has_cells_with_the_same_conditions():
 
 
 def test_an_unknown_experiment_is_refused():
-    with pytest.raises(InputError, match="experiment: expected one of closing-comb"):
+    with pytest.raises(InputError, match="experiment: expected one of closing-classes"):
         find("miracles")
 
 
