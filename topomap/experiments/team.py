@@ -132,12 +132,12 @@ EXPERIMENTS = (
     _experiment(
         "team-allocators",
         "How long does a team explore, by allocator?",
-        "",
+        "allocator",
         *(
-            {"allocator": name}
+            {"allocator": name, "target": "graph"}
             for name in ("mindist", "greedy", "hungarian", "minmax", "minpos", "mpg")
         ),
-        {"target": "grid"},
+        {"allocator": "minpos", "target": "grid"},
     ),
     _experiment(
         "team-range",
@@ -160,7 +160,7 @@ EXPERIMENTS = (
     _experiment(
         "team-faults",
         "What does it cost when one robot breaks down, goes mute, or comes late?",
-        "",
+        "fault",
         *({"fault": fault} for fault in ("dies", "mute", "comes")),
     ),
     _experiment(
