@@ -136,11 +136,18 @@ def merge_maps(
         matched = int((seen > 1).sum())
     else:
         matched = 0
+    joined = None
+    if force or not apart:
+        try:
+            joined = _chart(maps, group)
+        except InputError as error:
+            # A contradiction that the overlay tolerated: no map can hold both ways.
+            reason = f"joined, the maps contradict each other: {error}"
     return Merge(
-        accepted=not apart,
+        accepted=joined is not None and not apart,
         reason=reason,
         false_merge_probability=wrong,
-        map=_chart(maps, group) if force or not apart else None,
+        map=joined,
         transforms=tuple(where.get(k) for k in range(1, len(maps))),
         matched_vertices=matched,
         fleet=fleet,

@@ -51,6 +51,17 @@ def test_shared_edges_keep_the_measurements_of_both_robots():
     assert found.matched_vertices == len(chart.vertices)
 
 
+def test_maps_that_no_one_map_can_hold_are_refused(monkeypatch):
+    def contradictory(*_):
+        raise InputError("", "vertices[3].exits_deg[1]", 90.0, "another direction")
+
+    monkeypatch.setattr("topomap.merging._chart", contradictory)
+    found = merge_maps([truth(5), truth(5)], force=True)
+    assert not found.accepted
+    assert found.map is None
+    assert "contradict each other: vertices[3].exits_deg[1]" in found.reason
+
+
 def test_maps_of_two_worlds_are_refused():
     one, other = truth(1), truth(2)
     found = merge_maps([one, other])

@@ -91,7 +91,7 @@ def merge(
         save_page(recording_of_merge(found, charts, names), page)
     if as_json:
         show_json(summary(found, elapsed))
-    if not found.accepted and not force:
+    if found.map is None or not (found.accepted or force):
         raise JobError(f"merge refused: {found.reason}")
     if not as_json:
         said = "merged" if found.accepted else f"forced, not sure: {found.reason};"
