@@ -39,7 +39,7 @@ dist: $(VENV)/.developer ## wheel and sdist, checked, and the wheel tried in a b
 	$(BIN)/python -m build >dist.log || { cat dist.log; exit 1; }
 	$(BIN)/twine check --strict dist/*
 	$(BIN)/check-wheel-contents dist/*.whl
-	bash tests/installed.sh dist/*.whl $(BIN)/python
+	bash tests/installed.sh dist/*.whl $(abspath $(BIN))/python
 	rm -rf build dist.log
 
 clean: ## remove all that these targets made, .venv too

@@ -22,7 +22,8 @@ place. Beside a wall it is where X sees a wall again. What blocks the way is the
 far side as well (END): then the opening is flush with a corner. The drive has
 stages, that end where what is then found means something else: at 2 r_w, less than
 which is too narrow, at 2 r0, more than which is open space, and where a wall ahead
-would be so far away. So errors of odometry do not decide what was found.
+would be so far away. So errors of odometry do not decide what was found; where the
+body itself drives by its odometry, openings of 2 r_w and 2 r0 are given a tolerance.
 
 References
 ----------
@@ -46,8 +47,9 @@ if TYPE_CHECKING:
 __all__ = ["EXPLORE_OPENING", "Opening", "State", "explore_opening"]
 
 
-ROUNDING = 1e-6
-"""An opening may be this much, in metres, narrower than a hall."""
+TOLERANCE = 0.12
+"""An opening may be narrower than 2 r_w, or wider than 2 r0, by this part of it, and
+still count as a hall's: so far may odometry be off where a robot's width counts."""
 
 
 class State(Enum):
@@ -142,12 +144,12 @@ def explore_opening(
         From the running coroutine, if the body bumps or is stuck.
     """
     in_hall = otherwise is VertexType.PORTAL
-    most = 2 * parameters.r0
+    most = 2 * parameters.r0 * (1 + TOLERANCE)
     keep = parameters.r_min if in_hall else parameters.r0
-    least = 2 * parameters.r_w - ROUNDING
+    least = 2 * parameters.r_w * (1 - TOLERANCE)
     drive = Approach(
         (Sensor.LEFT, Sensor.RIGHT) if in_hall else (Sensor.of_side(side),),
-        within=most if in_hall else parameters.r_max,
+        within=2 * parameters.r0 if in_hall else parameters.r_max,
         keep=keep,
         until=Until.HALL if in_hall else Until.SEEN,
     )
