@@ -28,6 +28,7 @@ closed; GOTO drives to the nearest unexplored exit by the shortest way in the ma
 OUT goes through it to the next vertex; PLACE finds out whether that is one met
 before, and closes the base loop there if it is a new one. So a base loop is closed
 before the halls and rooms beyond it are entered ([K]_ 3.4), and loops stay short.
+Where what is met refutes the map, it is begun anew in LOOP or GOTO.
 
 References
 ----------
@@ -51,7 +52,7 @@ class State(Enum):
     """Go forward until a wall is in range."""
     MTW = auto()
     WF = auto()
-    """To the first vertex, along a wall."""
+    """To a first vertex, along a wall."""
     HF = auto()
     """To the first vertex, along a hall."""
     LOOP = auto()
@@ -101,7 +102,7 @@ def no_exit_left(quarters: int | None) -> bool:
 
 
 # fmt: off
-EXPLORE = Automaton((State.LOOK,), (
+EXPLORE = Automaton((State.LOOK, State.LOOP, State.GOTO), (
     #   in           when           go to
     Row(State.LOOK,  in_open_space, State.MTW),
     Row(State.LOOK,  in_a_hall,     State.HF),

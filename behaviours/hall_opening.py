@@ -5,8 +5,7 @@ table C.8 of [K]_:
 
 | in | when | go to |
 |---|---|---|
-| EXO | hall | MB_MIDDLE |
-| EXO | slit | MB_MIDDLE |
+| EXO | with far side | MB_MIDDLE |
 | EXO | no far side | MB_EDGE |
 | MB_MIDDLE | done | OPP |
 | OPP | probed | RET |

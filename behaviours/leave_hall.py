@@ -2,9 +2,9 @@
 
 | in | when | go to |
 |---|---|---|
-| MF | no wall | RET |
 | MF | wall on the left | AL_LEFT |
 | MF | wall on the right | AL_RIGHT |
+| MF | no wall | RET |
 | AL_LEFT | done | RET |
 | AL_RIGHT | done | RET |
 
@@ -26,9 +26,9 @@ from __future__ import annotations
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
-from behaviours.automaton import Actions, Automaton, Path, Row, perform
+from behaviours.automaton import Actions, Automaton, Path, Row, UnforeseenError, perform
 from behaviours.conditions import done
-from behaviours.port import Align, Behaviour, Move, Outcome, Side
+from behaviours.port import Align, Behaviour, Move, Outcome, Reason, Side
 from behaviours.vertices import VertexType
 from behaviours.ways import Arrival, Way, Ways, mirrored
 
@@ -95,6 +95,8 @@ def leave_hall(parameters: Parameters) -> Behaviour[Arrival]:
 
     def out(_: Path[State]) -> Behaviour[tuple[Side | None, Outcome]]:
         outcome = yield Move(parameters.r0)
+        if outcome.reason is not Reason.DONE:
+            raise UnforeseenError(State.MF, outcome)
         # A hall's own wall is at most r0 away, any other at least r_w farther.
         near = parameters.r0 + parameters.r_w / 2
         if outcome.readings.right < near:

@@ -79,6 +79,8 @@ class LikelihoodRule:
 
     Five values are weighed, from half to twice the given one.
     """
+    slips: bool = True
+    """Whether the loop may begin at a later vertex, where one was missed before."""
     r_star: float = 0.25
     """Least distance, in metres, of two equal vertices: `least_distance`."""
 
@@ -195,7 +197,7 @@ class LikelihoodCloser:
                 step(track, wall.length, wall.shift, symbol, wall.turn)
             )
         self._walls += 1
-        if self._walls in later_starts(self._walls + 1):
+        if self.rule.slips and self._walls in later_starts(self._walls + 1):
             self._start(later_rule(self.rule), symbol)
         accepted = min((s for s, k in periods.items() if k), default=0)
         return _decision(self._tracks[accepted], periods[accepted], accepted)

@@ -28,7 +28,12 @@ rule, with a gate that practically never misses (99.9 %), and with the literal o
 
 
 def make_closer(
-    name: str, sigma: float, parameters: Parameters, *, epsilon: float = 1e-4
+    name: str,
+    sigma: float,
+    parameters: Parameters,
+    *,
+    epsilon: float = 1e-4,
+    slips: bool = True,
 ) -> LoopCloser:
     """Make the loop closer of a name.
 
@@ -42,6 +47,10 @@ def make_closer(
         Of the robot: they decide how near two equal corners can be.
     epsilon : float
         The likelihood test closes when the probability of being wrong is below.
+
+    slips : bool
+        Whether the likelihood test may find the loop from a later vertex on, where
+        one was missed before.
 
     Returns
     -------
@@ -63,7 +72,9 @@ def make_closer(
     nearest = least_distance(parameters.r0, parameters.r_min, parameters.r_max)
     if name.startswith("likelihood"):
         full_lap = name == "likelihood-full-lap"
-        rule = LikelihoodRule(epsilon=epsilon, full_lap=full_lap, r_star=nearest)
+        rule = LikelihoodRule(
+            epsilon=epsilon, full_lap=full_lap, slips=slips, r_star=nearest
+        )
         return LikelihoodCloser(error, rule)
     gate = 0.95 if name.endswith("95") else 0.999
     return DempsterShaferCloser(error, PublishedRule(alpha=gate, r_star=nearest))

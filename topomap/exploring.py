@@ -341,7 +341,7 @@ def close_loop(found: Exploration) -> Behaviour[bool]:
             found.closer.observe(Wall(arrival.length, *_corner(place), arrival.shift))
         )
         period = decisions[-1].period
-        if period and not _fits(found, places, period):
+        if period and not _fits(found, places[decisions[-1].start :], period):
             period = None
     found.closed = period is not None
     legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
@@ -393,9 +393,10 @@ def _fold(
         Counter(places[k::period]).most_common(1)[0][0]
         for k in range(min(period, len(places)))
     ]
+    chart.places[found.here] = likeliest[0]
     numbers = [found.here, *map(chart.add_place, likeliest[1:])]
     for k, arrival in enumerate(arrivals):
-        quarters = places[k].ways.index(Way.WALL_RIGHT)
+        quarters = likeliest[k % period].ways.index(Way.WALL_RIGHT)
         end = numbers[k % period], quarters
         link = chart.links.get(end)
         if link is None:

@@ -155,8 +155,8 @@ def build_map(
             improve,
             body_drift(body, sigma),
             body=robot,
-            vertex=len(walk.legs) % (walk.period or 1),
-            make_closer=lambda: make_closer(name, sigma, parameters),
+            vertex=len(walk.loop.legs) % (walk.period or 1),
+            make_closer=lambda: make_closer(name, sigma, parameters, slips=False),
         )
         chart = improvement.map
     return Build(

@@ -88,7 +88,7 @@ def test_the_first_row_that_holds_is_taken():
 
 TABLES = [
     pytest.param(importlib.import_module(f"behaviours.{name}"), id=name)
-    for name in ("follow_wall", "move_to_wall")
+    for name in ["enter", "examine_corner", "explore", "explore_opening", "follow_broken_wall", "follow_hall", "follow_wall", "hall_opening", "leave_hall", "move_to_wall", "opposite", "probe"]
 ]
 
 
@@ -102,8 +102,9 @@ def test_the_docstring_shows_the_table_that_runs(module):
     assert "\n".join(table.table()) in module.__doc__
 
 
-@pytest.mark.parametrize("module", TABLES)
-def test_every_state_but_the_ends_has_an_action(module):
+@pytest.mark.parametrize("name", ["follow_wall", "move_to_wall"])
+def test_every_state_but_the_ends_has_an_action(name):
+    module = importlib.import_module(f"behaviours.{name}")
     table = table_of(module)
     assert set(module.actions(Parameters())) == set(module.State) - set(table.ends)
 

@@ -4,6 +4,7 @@ import json
 from dataclasses import replace
 
 import networkx as nx
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -11,12 +12,13 @@ from networkx.utils import graphs_equal
 
 from behaviours import Parameters, VertexType
 from tests.strategies import charts, spoilt
-from topomap import InputError
+from topomap import InputError, build_map
 from topomap.formats.graphml import load_graphml, save_graphml
 from topomap.formats.graphs import flat, from_graph, to_graph
 from topomap.formats.node_link import load_node_link, save_node_link
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 from topomap.truth import true_map
+from worlds.world import make_world
 
 ROOM = true_map([(0, 0), (4, 0), (4, 3), (2, 3), (2, 2), (0, 2)], Parameters())
 
@@ -243,3 +245,13 @@ def test_spoilt_graphml_is_refused_or_read(data, tmp_path_factory):
     path = tmp_path_factory.mktemp("spoilt") / "map.graphml"
     path.write_text(text[:start] + data.draw(st.text(max_size=3)) + text[end:])
     assert "\n" not in (refusal(load_graphml, path) or "")
+
+
+def test_what_a_robot_saw_beside_its_way_comes_back(tmp_path):
+    world = make_world([(0, 0), (5, 0), (5, 2), (2, 2), (2, 4), (0, 4)])
+    chart = build_map(world, np.random.default_rng(1)).map
+    assert any(edge.widths for edge in chart.edges)
+    save_graphml(chart, tmp_path / "map.graphml")
+    save_node_link(chart, tmp_path / "map.node.json")
+    assert load_graphml(tmp_path / "map.graphml") == chart
+    assert load_node_link(tmp_path / "map.node.json") == chart

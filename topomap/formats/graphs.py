@@ -189,6 +189,8 @@ def flat(values: Document) -> Document:
             found |= zip(GRID, (*value[0], *value[1]), strict=True)
         elif name == "lengths":
             found[name] = json.dumps([[part["value"], part["sigma"]] for part in value])
+        elif name == "widths":
+            found[name] = json.dumps(value)
         elif name == "parameters":
             found |= value
         else:
@@ -225,6 +227,9 @@ def unflat(values: Document) -> Document:
             found["lengths"] = [
                 {"value": value, "sigma": sigma} for value, sigma in json.loads(text)
             ]
+    if isinstance(text := found.get("widths"), str):
+        with contextlib.suppress(ValueError, RecursionError):
+            found["widths"] = json.loads(text)
     return found
 
 

@@ -69,7 +69,7 @@ def add_loop(
         edges=chart.edges + walls + (link,),
     )
     period = loop.walk.period or len(part.vertices)
-    return embedded(whole), first + len(loop.walk.legs) % period
+    return embedded(whole), first + len(loop.walk.loop.legs) % period
 
 
 def _moved(vertex: Vertex, first: int, turn: float, place: np.ndarray) -> Vertex:

@@ -77,7 +77,7 @@ class NewLoop:
     @property
     def turning(self) -> int:
         """Full turns around the loop: 1 inside an outer wall, -1 around an island."""
-        kinds = [leg.corner for leg in self.walk.legs[: self.walk.period]]
+        kinds = [leg.corner for leg in self.walk.loop.legs[: self.walk.period]]
         return round(sum(TURN[kind] for kind in kinds) / math.tau)
 
 
