@@ -50,6 +50,8 @@ class _Corner:
     leaving: int
     halls: list[int] = field(default_factory=list)
     """Directions of the halls that begin here, in quarter turns."""
+    width: float = 0.0
+    """Of the hall's opening, in metres, where that is in a straight wall."""
     is_kept: bool = True
     """Whether it is a vertex; else it is ill-defined."""
     number: int = -1
@@ -187,6 +189,7 @@ def _attach(
                 for way, corner in ((behind, before), (ahead, after)):
                     _check_clear(place, way, corner, mouth.width, r0)
                 split = _Corner(x, y, heading, heading, [(mouth.out + 2) % 4])
+                split.width = mouth.width
                 loop.insert(k + 1, split)
                 return split
             for way, corner in ((behind, before), (ahead, after)):
@@ -206,13 +209,15 @@ def _check_clear(
     place: str, way: float, corner: _Corner, width: float, r0: float
 ) -> None:
     """Check that wall is left between an opening and the vertex after it."""
-    wall = way - width / 2
-    if corner.halls and corner.arriving == corner.leaving:
-        wall -= r0
-    least = 0.0 if corner.is_inner else r0
+    if corner.arriving == corner.leaving:
+        wall, least, what = way - (width + corner.width) / 2, 0.0, "next opening"
+    elif corner.is_inner:
+        wall, least, what = way - width / 2 + r0, r0, "corner beside it"
+    else:
+        wall, least, what = way - width / 2 - r0, 0.0, "corner beside it"
     if corner.is_kept and wall < least - ROUNDING:
         raise WorldError(
-            place, f"{wall + r0:.4g} m from the corner beside it; expected {r0:g} m"
+            place, f"{wall:.4g} m from the {what}; expected at least {least:g} m"
         )
 
 

@@ -88,7 +88,20 @@ def test_the_first_row_that_holds_is_taken():
 
 TABLES = [
     pytest.param(importlib.import_module(f"behaviours.{name}"), id=name)
-    for name in ["enter", "examine_corner", "explore", "explore_opening", "follow_broken_wall", "follow_hall", "follow_wall", "hall_opening", "leave_hall", "move_to_wall", "opposite", "probe"]
+    for name in [
+        "enter",
+        "examine_corner",
+        "explore",
+        "explore_opening",
+        "follow_broken_wall",
+        "follow_hall",
+        "follow_wall",
+        "hall_opening",
+        "leave_hall",
+        "move_to_wall",
+        "opposite",
+        "probe",
+    ]
 ]
 
 

@@ -178,6 +178,18 @@ def test_a_known_world_of_halls():
     assert {edge.behaviour for edge in built.map.edges} == {"WF", "HF", "ENTER"}
 
 
+@pytest.mark.parametrize("widths", [(0.57, 0.43), (0.43, 0.57)])
+def test_two_openings_side_by_side_are_two_splits(widths):
+    first, second = widths
+    middle = 1 + first / 2 + 0.85
+    world = union(
+        (0, 0, 4, 3),
+        (1, -2, 1 + first, 0),
+        (middle - second / 2, -2, middle + second / 2, 0),
+    )
+    assert build_map(world, np.random.default_rng(1), sigma=0.0).correct
+
+
 def test_an_open_world_has_the_same_truth_from_both_constructions():
     room = make_world([(0, 0), (5, 0), (5, 2), (2, 2), (2, 4), (0, 4)])
     (halls,) = true_hall_maps(room, ROBOT)
