@@ -123,8 +123,11 @@ def draw_halls(
     Raises
     ------
     WorldError
-        If two halls leave a junction to the same side, or are off its middle.
+        If two halls leave a junction to the same side, or those that meet are so
+        much off each other's middle that the junction is wider than 2 r0.
     """
+    for box in parts.junctions:
+        _check_size(box, 2 * drawing.parameters.r0)
     sides = _sides(parts)
     exits = [
         {q for q in sides[n] if _is_hall(drawing.parameters, free, box, q)}
@@ -175,6 +178,15 @@ class _Terminal:
         along += -inside if self.end else inside
         across = (low + high) / 2
         return (along, across) if self.stretch.axis == 0 else (across, along)
+
+
+def _check_size(box: tuple[float, float, float, float], most: float) -> None:
+    size = max(box[2] - box[0], box[3] - box[1])
+    if size > most + ROUNDING:
+        raise WorldError(
+            f"junction at ({(box[0] + box[2]) / 2:.4g}, {(box[1] + box[3]) / 2:.4g})",
+            f"{size:.4g} m wide; expected at most {most:.4g} m, twice r0",
+        )
 
 
 def _sides(parts: HallParts) -> list[dict[int, tuple[int, int]]]:
