@@ -4,12 +4,14 @@ import json
 
 import numpy as np
 import pytest
+import shapely
 
 from tests.team.buildings import building
 from topomap.cli import main
 from topomap.errors import InputError
 from topomap.files.map_files import load_map
 from topomap.files.world_files import save_world
+from topomap.page import recording_of_team
 from topomap.team.animation import animate_team
 from topomap.team.exploring import explore
 
@@ -61,3 +63,24 @@ def test_a_moving_picture_is_a_gif_of_at_least_one_frame(tmp_path):
         animate_team(run, building(), tmp_path / "run.png")
     with pytest.raises(InputError, match="frames: expected at least 1; got 0"):
         animate_team(run, building(), tmp_path / "run.gif", frames=0)
+
+
+def test_a_page_replays_the_run(world_file, tmp_path):
+    arguments = ["explore", str(world_file), "--robots", "2", "-o", str(tmp_path / "t")]
+    assert main([*arguments, "--page", str(tmp_path / "run.html")]) == 0
+    assert "robot 1" in (tmp_path / "run.html").read_text()
+
+
+def test_a_recording_holds_ways_choices_and_maps():
+    world = building()
+    run = explore(world, np.random.default_rng(1), robots=2, sigma=0.0)
+    shown = recording_of_team(run, world)
+    assert len(shown.robots) == 2
+    chosen = [a for a in shown.assignments if a.target is not None]
+    assert chosen
+    assert all(a.reason for a in chosen)
+    free = world.free_space.buffer(0.01)
+    assert shapely.contains_xy(free, *np.array([a.target for a in chosen]).T).all()
+    (chart,) = shown.maps[0].states
+    places = chart.placement([v.position for v in chart.map.vertices])
+    assert shapely.contains_xy(free, *places.T).all()

@@ -37,6 +37,9 @@ def explore(
     returns: Annotated[
         bool, typer.Option("--return", help="Go back to the first vertex at the end.")
     ] = False,
+    page: Annotated[
+        Path | None, typer.Option(help="Page to write that replays the run: .html.")
+    ] = None,
     seed: Annotated[int, typer.Option(min=0, help="Seed of all that is drawn.")] = 0,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object and nothing else.")
@@ -54,6 +57,10 @@ def explore(
 
     place = load_world(world)
     radio = Radio(range=reach, loss=loss)
+    if page is not None:
+        from topomap.page.html import check_page
+
+        check_page(page)
     make_folder(output)
     began = time.perf_counter()
     with naming(world), progress(f"{robots} robots explore"):
@@ -70,6 +77,11 @@ def explore(
         )
     elapsed = time.perf_counter() - began
     files = write_run(run, place, output)
+    if page is not None:
+        from topomap.page import recording_of_team, save_page
+
+        save_page(recording_of_team(run, place), page)
+        files.append(page)
     if as_json:
         show_json(summary(run, elapsed))
     if not run.complete:

@@ -10,6 +10,7 @@ from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.mapping import build_map
+from worlds.errors import WorldError
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,9 +33,15 @@ def hall_worlds(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
             built = build_map(
                 world, rng, body=str(cell["body"]), sigma=float(cell["sigma"])
             )
+        except WorldError:
+            total["failed: world refused"] += 1
+            continue
         except JobError as error:
             cause = error.__cause__
-            where = cause.state if isinstance(cause, UnforeseenError) else "lost"
+            where = "lost"
+            if isinstance(cause, UnforeseenError):
+                module = type(cause.state).__module__.rpartition(".")[2]
+                where = f"{module} {cause.state.name}"
             total[f"failed: {where}"] += 1
             continue
         total.update(_tallies(built))
