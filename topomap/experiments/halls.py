@@ -53,8 +53,8 @@ def _tallies(built: Build) -> Tallies:
     once = sum(edge.fused.value for edge in built.map.edges)
     walked = sum(length.value for edge in built.map.edges for length in edge.lengths)
     tallies: Tallies = {
-        "correct": built.correct,
-        "complete": built.map.unexplored_exits == 0,
+        "correct": int(built.correct),
+        "complete": int(built.map.unexplored_exits == 0),
         "vertices": len(built.map.vertices),
         "collisions": built.collisions,
         "travelled / length": built.travelled / once,

@@ -30,7 +30,7 @@ def map_once(
     except JobError as error:
         return {f"failed: {type(error.__cause__ or error).__name__}": 1}
     tallies: Tallies = {
-        "correct": built.correct,
+        "correct": int(built.correct),
         "collisions": built.collisions,
         "travelled_m": built.travelled,
         "laps": built.walls / len(built.map.edges),
