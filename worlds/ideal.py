@@ -52,7 +52,7 @@ TURN_TIME = 1.0
 """Seconds for a quarter turn."""
 EPS = 1e-9
 """Lengths that differ by less, in metres, are one length."""
-AXIS = 1e-7
+AXIS = 2e-7
 """A heading that is off an axis by less, in radians, is along it."""
 NEAR = 1e-6
 """A wall that is off r0 by more, in metres, is one that has stepped."""
