@@ -153,6 +153,7 @@ def _rings(area: shapely.Geometry) -> Iterator[list[tuple[float, float]]]:
 
 def _loop(ring: list[tuple[float, float]], parameters: Parameters) -> list[_Corner]:
     """Return a base loop, its ill-defined corners marked."""
+    ring = _without_straight(ring)
     closed = [ring[-1], *ring, ring[0]]
     headings = [
         quarter_of(math.atan2(y1 - y0, x1 - x0))
@@ -165,6 +166,17 @@ def _loop(ring: list[tuple[float, float]], parameters: Parameters) -> list[_Corn
     for k in jogs(tuple(ring), parameters.least_recess, parameters.least_jut):
         loop[k].is_kept = loop[(k + 1) % len(loop)].is_kept = False
     return loop
+
+
+def _without_straight(ring: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return a ring without points at which, but for rounding, it goes straight on."""
+    around = zip([ring[-1], *ring], ring, [*ring[1:], ring[0]], strict=False)
+    return [
+        here
+        for before, here, after in around
+        if quarter_of(math.atan2(here[1] - before[1], here[0] - before[0]))
+        != quarter_of(math.atan2(after[1] - here[1], after[0] - here[0]))
+    ]
 
 
 def _attach(

@@ -20,7 +20,7 @@ from tests.worlds.hall_class import census
 from topomap import build_map, compare_maps, exploring
 from topomap.closers import make_closer
 from topomap.errors import InputError
-from topomap.hall_truth import true_hall_maps
+from topomap.hall_truth import _without_straight, true_hall_maps
 from topomap.truth import true_map, true_maps
 from worlds.errors import WorldError
 from worlds.ideal import IdealBody
@@ -256,6 +256,12 @@ def test_the_wall_opposite_is_examined_and_left_again():
 def test_what_is_too_intricate_is_refused_with_its_place(boxes, says):
     with pytest.raises(WorldError, match=says):
         true_maps(union(*boxes), ROBOT)
+
+
+def test_a_point_where_a_wall_goes_straight_on_is_no_corner():
+    square = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]
+    assert _without_straight([square[0], (1.0, 1e-8), *square[1:]]) == square
+    assert _without_straight([(0.0, 1.0), *square]) == square
 
 
 def test_walls_run_out_is_no_closed_map():
