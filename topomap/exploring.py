@@ -71,7 +71,7 @@ class Exploration:
     closed: bool = True
     """Whether every loop that it began was closed."""
     loops: list[Walk] = field(default_factory=list)
-    """The base loops, as they were walked."""
+    """The base loops of the map, as they were walked."""
     recognitions: list[Recognition] = field(default_factory=list)
     """What was made of each place that might be one met before."""
     refuted: list[str] = field(default_factory=list)
@@ -244,6 +244,8 @@ def _begin_anew(found: Exploration, place: Place) -> None:
     """Unfold the map: all that is left of it is the place where the robot stands."""
     found.chart.places.clear()
     found.chart.links.clear()
+    found.loops.clear()
+    found.recognitions.clear()
     found.here = found.chart.add_place(place)
 
 
@@ -345,10 +347,10 @@ def close_loop(found: Exploration) -> Behaviour[bool]:
             period = None
     found.closed = period is not None
     legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
-    found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
     start = decisions[-1].start if period and decisions else 0
     if start:
         _begin_anew(found, places[start])
+    found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
     _fold(found, places[start:], arrivals[start:], period or len(places))
     if start:
         found.refuted.append(decisions[-1].reason)
