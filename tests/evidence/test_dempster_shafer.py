@@ -16,7 +16,7 @@ from evidence import (
     Variance,
     Wall,
 )
-from evidence.trials import published_trials
+from evidence.published_trials import published_trials
 from topomap.experiments.shapes import CLASSES, ell, spiral
 from topomap.experiments.walking import walks
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy import integrate, stats
 
 from evidence import LikelihoodCloser, LikelihoodRule, RelativeError, Wall
+from evidence.likelihood_trials import likelihood_trials
 from evidence.tracking import _log_marginal, new_track, restart, step
-from evidence.trials import likelihood_trials
 from tests.evidence.test_dempster_shafer import QUARTER, closed, walked
 from topomap.experiments.closing_classes import is_map_right
 from topomap.experiments.shapes import CLASSES, office, spiral, square, twins
