@@ -86,7 +86,7 @@ def likelihood_trials(
     return periods, walls, errors, starts
 
 
-def _loop_of(stamp: int) -> Callable[..., None]:
+def _loop_of(stamp: int) -> Callable[..., int]:
     """Return the compiled loop over walks.
 
     `stamp` changes with the file of the compiled step. Numba's cache would notice

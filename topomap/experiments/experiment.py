@@ -49,12 +49,12 @@ class Experiment:
     """Tallies that are shares of the trials, shown with Wilson intervals."""
     means: tuple[str, ...] = ()
     """Tallies shown as means over the trials."""
-    medians: tuple[str, ...] = ()
-    """Tallies from `spread`, shown as medians."""
     x: str = ""
     """The condition along the plot's axis; the others tell its lines apart."""
     paired: tuple[str, ...] = ()
     """Conditions that do not enter the seed: their cells see the same draws."""
+    medians: tuple[str, ...] = ()
+    """Tallies from `spread`, shown as medians."""
 
 
 @dataclass(frozen=True, slots=True)
