@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from behaviours.parameters import Parameters
+from topomap.closers import SLIP
 from topomap.errors import InputError
 from topomap.incursions.errors import Drift
 
@@ -22,6 +23,7 @@ __all__ = [
     "body_drift",
     "body_parameters",
     "body_profile",
+    "body_slip",
     "make_body",
 ]
 
@@ -75,6 +77,19 @@ def body_drift(name: str, sigma: float) -> Drift:
         bend=profile.drift,
         stand=STAND * profile.parameters.r0,
     )
+
+
+def body_slip(name: str) -> float:
+    """Return how often a body misses, invents or misjudges a corner.
+
+    The ideal body never does; of the others nothing is known for certain.
+
+    Raises
+    ------
+    InputError
+        If there is no such body.
+    """
+    return 0.0 if body_profile(name) is None else SLIP
 
 
 def make_body(

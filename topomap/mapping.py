@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from topomap.bodies import body_drift, body_parameters, make_body
+from topomap.bodies import body_drift, body_parameters, body_slip, make_body
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.errors import InputError
@@ -139,7 +139,9 @@ def build_map(
     if watch is not None:
         robot = watch(robot)
     closer = (
-        make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
+        make_closer(closing, sigma, parameters, slip=body_slip(body))
+        if isinstance(closing, str)
+        else closing
     )
     halls = not is_open(world, parameters)
     if halls and improve != "none":
@@ -156,7 +158,7 @@ def build_map(
             body_drift(body, sigma),
             body=robot,
             vertex=len(walk.loop.legs) % (walk.period or 1),
-            make_closer=lambda: make_closer(name, sigma, parameters, slips=False),
+            make_closer=lambda: make_closer(name, sigma, parameters, slip=0.0),
         )
         chart = improvement.map
     return Build(

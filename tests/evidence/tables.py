@@ -16,8 +16,9 @@ import numpy as np
 
 from evidence.dempster_shafer import PublishedRule, Readings
 from evidence.likelihood import LikelihoodRule
+from evidence.likelihood_trials import likelihood_trials
 from evidence.phi import Freedom, Variance
-from evidence.trials import likelihood_trials, published_trials
+from evidence.published_trials import published_trials
 from topomap.experiments.shapes import CLASSES
 from topomap.experiments.walking import deviations, laps_for, slipped, walks
 from topomap.experiments.wilson import wilson_interval

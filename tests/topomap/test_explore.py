@@ -280,7 +280,7 @@ class Hasty:
 
     def __init__(self, period):
         self.period = period
-        self.closer = make_closer("likelihood", 0.0, ROBOT)
+        self.closer = make_closer("likelihood", 0.0, ROBOT, slip=0.0)
 
     def begin(self, kind, turn):
         self.closer.begin(kind, turn)

@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, TypeAlias
 
 from topomap.drawing import save_figure
+from topomap.experiments.experiment import median_of
 from topomap.experiments.wilson import wilson_interval
 from topomap.files.atomic import write_atomically
 
@@ -88,8 +89,11 @@ def table(experiment: Experiment, cells: Mapping[int, Tallies]) -> str:
     """
     conditions = list(experiment.cells[0])
     named = {*experiment.shares, *experiment.means, "trials"}
-    others = sorted({name for tallies in cells.values() for name in tallies} - named)
-    head = [*conditions, "trials", *experiment.shares, *experiment.means, *others]
+    measured = {name for tallies in cells.values() for name in tallies}
+    others = sorted(name for name in measured - named if "@" not in name)
+    medians = [f"{name}, median" for name in experiment.medians]
+    head = ["trials", *experiment.shares, *experiment.means, *medians, *others]
+    head = [*conditions, *head]
     lines = [_line(head), _line("---" for _ in head)]
     for cell, tallies in cells.items():
         trials = tallies["trials"]
@@ -97,6 +101,7 @@ def table(experiment: Experiment, cells: Mapping[int, Tallies]) -> str:
         row.append(f"{trials:.0f}")
         row += [_share(tallies.get(name, 0.0), trials) for name in experiment.shares]
         row += [f"{tallies.get(name, 0.0) / trials:.4g}" for name in experiment.means]
+        row += [f"{median_of(name, tallies):.2f}" for name in experiment.medians]
         row += [f"{tallies.get(name, 0.0):.0f}" for name in others]
         lines.append(_line(row))
     return "\n".join(lines)

@@ -149,7 +149,7 @@ def drive_route(
         source,
         wall.source_exit,
         body_drift(body, sigma),
-        lambda: make_closer(closing, sigma, parameters, slips=False),
+        lambda: make_closer(closing, sigma, parameters, slip=0.0),
     )
     failure, routes = "", [first]
     try:

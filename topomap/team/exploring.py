@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, cast
 
-from topomap.bodies import body_parameters, make_body
+from topomap.bodies import body_parameters, body_slip, make_body
 from topomap.closers import make_closer
 from topomap.errors import InputError
 from topomap.exploration.registry import find_allocator
@@ -143,9 +143,8 @@ def explore(
             parameters=parameters,
             arena=arena,
         )
-        found = Exploration(
-            parameters, make_closer(closing, sigma, parameters), sigma, MAX_WALLS
-        )
+        closer = make_closer(closing, sigma, parameters, slip=body_slip(body))
+        found = Exploration(parameters, closer, sigma, MAX_WALLS)
         agent = _agent(k, found, air, team, fault)
         agent.allocator, agent.returns = allocator, returns
         if target == "grid":
