@@ -77,7 +77,7 @@ def _corridors(
     """Return the edges between the cells that are vertices, and their lengths."""
     number = np.where(mask, np.cumsum(mask) - 1, -1).tolist()
     # How many open ways a cell has before each.
-    rank = (np.cumsum(open_, axis=1) - open_).tolist()
+    rank: list[list[int]] = (np.cumsum(open_, axis=1) - open_).tolist()
     is_open, is_vertex, place = open_.tolist(), mask.tolist(), at.tolist()
     edges, lengths = [], []
     for cell in np.flatnonzero(mask).tolist():
