@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -16,6 +17,7 @@ __all__ = [
     "displace",
     "overlapping",
     "perturb",
+    "swing",
     "turn",
 ]
 
@@ -92,6 +94,23 @@ def perturb(graph: Graph, sigma: float, rng: np.random.Generator) -> Graph:
         variances=(sigma * measured) ** 2 + 1e-6,
         positions=None,
     )
+
+
+def swing(graph: Graph, sigma: float, rng: np.random.Generator) -> Graph:
+    """Measure the direction of every exit anew, with an error of `sigma` radians.
+
+    A robot that turns on the spot passes the exits one after the other: however near
+    they are to each other, their order stays.
+    """
+    swung = graph.exits + sigma * rng.standard_normal(len(graph.exits))
+    for first, last in itertools.pairwise(graph.first_exit.tolist()):
+        order = np.argsort(graph.exits[first:last])
+        turns = np.sort(swung[first:last])
+        over = max(np.ptp(turns) - math.tau + 1e-4, 0.0) if len(turns) else 0.0
+        turns = np.clip(turns, turns[:1] + over / 2, turns[-1:] - over / 2)
+        # Where two fall together the lesser index comes first, as it does elsewhere.
+        swung[first:last][order] = turns + 1e-7 * np.arange(len(turns))
+    return replace(graph, exits=swung)
 
 
 def turn(graph: Graph, angle: float, rng: np.random.Generator) -> tuple[Graph, Ints]:

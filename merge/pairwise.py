@@ -121,7 +121,7 @@ def decide(
     overlays.sort(key=lambda c: (-c.score, c.residual, c.members))
     best, others = overlays[0], tuple(overlays[1:])
     # Of the ways to lay a vertex on another, each overlay is one for each of its pairs.
-    trials = max(hypotheses.pairings / len(best.pairs), 1.0)
+    trials = max(hypotheses.ways / len(best.pairs), 1.0)
     rivals = [
         min(best.score, other.score + float(by_luck(len(other.pairs))))
         for other in others
