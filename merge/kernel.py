@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from merge.exits_kernel import MOST, correspond, lengths_agree, rotate
+from merge.exits_kernel import MOST, angles_fit, correspond, lengths_agree, rotate
 from merge.table_kernel import extended, put, slot_of
 
 __all__ = ["grow_all"]
@@ -23,18 +23,22 @@ UNIT = 1048576.0
 """Scores are added as whole numbers of one part in so many."""
 
 
-def gain(a, b, xa, xb, gain_a, gain_b):
+def gain(a, b, xa, xb, gain_a, gain_b, bend):
     """Return what two edges that agree tell, half of it for each of their ends."""
     d = a.length[xa] - b.length[xb]
     spread = a.variance[xa] + b.variance[xb]
     fit = -0.5 * (d * d / spread + math.log(math.tau * spread))
     fit += min(gain_a[xa, 0], gain_b[xb, 0])
     fit += min(gain_a[xa, 1], gain_b[xb, 1])
+    if bend > 0.0 and a.solid[xa] and b.solid[xb]:
+        fit += min(gain_a[xa, 2], gain_b[xb, 2])
+        fit += angles_fit(a, b, a.twin[xa], b.twin[xb], bend)
     return np.int64(round(0.5 * fit * UNIT))
 
 
 def grow(
-    a, b, views, gains, tol, most, slack, rim, alike, mates, queue, partner, probe
+    a, b, views, gains, tol, most, slack, rim, bend, alike, mates, queue, partner,
+    probe,
 ):  # fmt: skip
     """Grow the pair at the head of the queue to its end, or to its first mismatch.
 
@@ -102,7 +106,7 @@ def grow(
             if a.solid[xa] and b.solid[xb]:
                 joint += 1
             # Both ends see each edge; half of its gain from each.
-            score += gain(a, b, xa, xb, gains[0], gains[1])
+            score += gain(a, b, xa, xb, gains[0], gains[1], bend)
             edges += 1
         if clean and joint >= 2:
             core = True
@@ -111,14 +115,15 @@ def grow(
 
 def grow_all(
     a, b, views, key_a, entry_a, key_b, entry_b, row_b, gains,
-    tol, most, slack, rim, alike, least, only_a, only_b, known,
+    tol, most, slack, rim, bend, alike, least, only_a, only_b, known,
 ):  # fmt: skip
     """Grow every seed and return the hypotheses that survive.
 
     Entries are pairs of solid darts of one vertex, sorted by key; of B only the first
     dart is given, and in `row_b` what the search reads: length and variance at the
     first and at the second, and the least length that the first allows, by which
-    rows of one key rise. Of `alike` the first says that vertices of equal views
+    rows of one key rise. `bend` is the variance of the difference of two exits, or 0
+    where views say the shape. Of `alike` the first says that vertices of equal views
     correspond, the second that no others do. Returns arrays: the pairs (dart of A,
     dart of B, standing for vertex pair and rotation); for each hypothesis where its
     pairs end, its score in `UNIT`, matched edges, contradictions; and the number of
@@ -191,7 +196,7 @@ def grow_all(
             mate_b[w] = u
             dart_of[u] = q + partner[0]
             tail, score, edges, wrong, core = grow(
-                a, b, views, gains, tol, most, slack, rim, alike,
+                a, b, views, gains, tol, most, slack, rim, bend, alike,
                 (mate_a, mate_b, dart_of), (queue_a, queue_b), partner, probe,
             )  # fmt: skip
             keep = tail >= least and core and (wrong == 0 or rim)

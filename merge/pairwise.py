@@ -120,7 +120,8 @@ def decide(
     overlays = find_overlays(hypotheses, at_a, at_b, options.reach * edge)
     overlays.sort(key=lambda c: (-c.score, c.residual, c.members))
     best, others = overlays[0], tuple(overlays[1:])
-    trials = float(len(a) * len(b))
+    # Of the ways to lay a vertex on another, each overlay is one for each of its pairs.
+    trials = max(hypotheses.ways / len(best.pairs), 1.0)
     rivals = [
         min(best.score, other.score + float(by_luck(len(other.pairs))))
         for other in others
