@@ -144,18 +144,3 @@ def _robot():
 def test_the_route_to_where_one_is_has_no_steps():
     room = true_map([(0, 0), (4, 0), (4, 3), (0, 3)], _robot())
     assert plan_route(room, 2, 2).steps == ()
-
-
-def test_a_hall_is_not_driven_and_said_so():
-    from dataclasses import replace
-
-    room = true_map([(0, 0), (4, 0), (4, 3), (0, 3)], _robot())
-    hall = replace(room.edges[0], behaviour="HF")
-    chart = replace(room, edges=(hall, *room.edges[1:]))
-    world = make_world([(0, 0), (4, 0), (4, 3), (0, 3)])
-    drive = drive_route(match_world(chart, world), 0, 1, np.random.default_rng(0))
-    assert not drive.arrived
-    assert drive.failure == (
-        "the way from vertex 0 to vertex 1 is HF at INT: only walls in open space can "
-        "be driven"
-    )

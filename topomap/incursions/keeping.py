@@ -14,7 +14,12 @@ from topomap.incursions.agenda import CRUMB, Crossed, geometry_of
 from topomap.incursions.known_space import known_space
 from topomap.incursions.layout import lay_out
 from topomap.incursions.passive import with_passive
-from topomap.incursions.sureness import landing_sureness, with_sureness
+from topomap.incursions.sureness import (
+    TRUSTED,
+    driven_sureness,
+    sure_ways,
+    with_sureness,
+)
 from topomap.topological_map import Length
 
 if TYPE_CHECKING:
@@ -24,9 +29,6 @@ if TYPE_CHECKING:
     from topomap.topological_map import Edge, TopologicalMap
 
 __all__ = ["finished", "keep"]
-
-TRUSTED = 0.95
-"""Driven incursions that are less sure are left out of the map if they can be."""
 
 
 def keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
@@ -46,7 +48,7 @@ def keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
         kind="active",
         widths=_widths(arrival),
     )
-    sureness = landing_sureness(journey.layout, edge, journey.drift)
+    sureness = driven_sureness(journey.layout, edge, journey.drift)
     edge = replace(edge, sureness=sureness)
     journey.chart = replace(journey.chart, edges=(*journey.chart.edges, edge))
 
@@ -84,17 +86,12 @@ def _trusted(chart: TopologicalMap) -> TopologicalMap:
     """Leave out driven incursions that are not sure, unless only they lead there."""
     import networkx as nx
 
-    index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
-    kept = [e for e in chart.edges if e.kind != "active" or e.sureness >= TRUSTED]
-    left = [e for e in chart.edges if e.kind == "active" and e.sureness < TRUSTED]
-    graph: nx.DiGraph[int] = nx.DiGraph()
-    graph.add_nodes_from(index.values())
-    for edge in kept:
-        a, b = index[edge.source], index[edge.target]
-        graph.add_edges_from([(a, b)] if edge.is_incursion else [(a, b), (b, a)])
+    is_sure = [e.kind != "active" or e.sureness >= TRUSTED for e in chart.edges]
+    graph = sure_ways(chart)
+    kept = [e for e, ok in zip(chart.edges, is_sure, strict=True) if ok]
+    left = [e for e, ok in zip(chart.edges, is_sure, strict=True) if not ok]
     for edge in sorted(left, key=lambda e: -e.sureness):
-        a, b = index[edge.source], index[edge.target]
-        if not nx.has_path(graph, a, b):
-            graph.add_edge(a, b)
+        if not nx.has_path(graph, edge.source, edge.target):
+            graph.add_edge(edge.source, edge.target)
             kept.append(edge)
     return replace(chart, edges=tuple(kept))
