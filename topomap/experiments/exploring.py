@@ -20,11 +20,12 @@ from topomap.exploration import (
     weighted,
 )
 from topomap.exploration.asynchronous import Periods, explore_asynchronously
-from topomap.exploration.grid_worlds import grid_world, maze, stable
+from topomap.exploration.building_worlds import campus, hospital
+from topomap.exploration.grid_worlds import maze, office, stable, streets
 from topomap.exploration.studies import tree_bound
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -36,10 +37,18 @@ BY_WAVES = ("mindist", "greedy", "minpos", "mpg")
 """Those of figures 5.9 and 5.12, compared where robots decide one by one."""
 WEIGHTS = {
     f"size {size:g}, turn {turn:g}": (1.0, size, turn)
-    for size in (0.0, 0.25, 1.0)
-    for turn in (0.0, 0.25, 1.0)
+    for size, turn in ((0.0, 0.0), (0.25, 0.0), (0.0, 0.25), (0.25, 0.25), (1.0, 1.0))
 }
 """The weights of `weighted` that are tried, beside 1 for the distance."""
+
+WORLDS: dict[str, Callable[[np.random.Generator], NDArray[np.bool_]]] = {
+    "maze": maze,
+    "office": partial(office, rooms=5, floors=2),
+    "hospital": partial(hospital, length=80),
+    "streets": partial(streets, size=41, irregular=True),
+    "campus": partial(campus, rows=70, columns=80),
+}
+"""Worlds by name: smaller than those of `grid_world`, but for mazes."""
 
 
 def explore_worlds(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
@@ -52,7 +61,7 @@ def explore_worlds(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies
     total: dict[str, float] = defaultdict(float)
     for _ in range(trials):
         free, starts = _world(str(cell["world"]), int(cell["robots"]), rng)
-        names = BY_WAVES if "decide" in cell else NAMES
+        names = BY_WAVES if {"decide", "group"} & cell.keys() else NAMES
         _add(total, {name: _time(cell, name, free, starts) for name in names})
     return dict(total)
 
@@ -66,7 +75,7 @@ def explore_trees(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
     """
     total: dict[str, float] = defaultdict(float)
     for _ in range(trials):
-        free = maze(rng, 41, corridor=1, loops=0.0)
+        free = maze(rng, 21, corridor=1, loops=0.0)
         robots = int(cell["robots"])
         starts = central_starts(free, robots, rng)
         far = distances(free, starts, steps=Steps(1, 1))
@@ -86,7 +95,7 @@ def search_weights(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies
             name: explore_grid(
                 free,
                 starts,
-                Settings(partial(weighted, weights=weights), reach=8, limit=5000),
+                Settings(partial(weighted, weights=weights), reach=8, limit=1000),
             ).time
             for name, weights in WEIGHTS.items()
         }
@@ -112,7 +121,7 @@ def _world(
     if kind == "stable":
         free, starts = stable(2 * robots)
         return free, starts + [0, 1] * rng.integers(-1, 2, size=(robots, 1))
-    free = grid_world(kind, rng)
+    free = WORLDS[kind](rng)
     return free, central_starts(free, robots, rng)
 
 
@@ -153,25 +162,25 @@ EXPERIMENTS = (
     _experiment(
         "mazes",
         "How long do 1 to 30 robots explore a maze, by allocator?",
-        _teams("maze", 2, 3, 5, 10, 1, 20, 30),
+        _teams("maze", 2, 3, 5, 10, 1, 30),
         "robots",
     ),
     _experiment(
         "offices",
         "How long do robots explore an office floor, by allocator?",
-        _teams("office", 2, 3, 5, 10, 1, 20, 30),
+        _teams("office", 2, 3, 5, 10, 1, 30),
         "robots",
     ),
     _experiment(
         "hospitals",
         "How long do robots explore a wing of a hospital, by allocator?",
-        _teams("hospital", 2, 5, 10, 1, 20, 30),
+        _teams("hospital", 2, 5, 10, 30),
         "robots",
     ),
     _experiment(
         "streets",
         "How long do robots explore streets between uneven blocks, by allocator?",
-        _teams("irregular", 2, 5, 10, 1, 20, 30),
+        _teams("streets", 2, 5, 10, 30),
         "robots",
     ),
     _experiment(
@@ -183,7 +192,7 @@ EXPERIMENTS = (
     _experiment(
         "trees",
         "How near does a team come to the bound of a tree?",
-        _teams("tree", 1, 2, 3, 5, 10, 20),
+        _teams("tree", 1, 2, 5, 10),
         "robots",
         explore_trees,
         ("bound", *NAMES),
@@ -202,9 +211,10 @@ EXPERIMENTS = (
         "What does the size of frontiers do to each allocator?",
         tuple(
             {"world": "office", "robots": 5, "group": size}
-            for size in (1, 3, 8, 16, 25, 50)
+            for size in (1, 4, 12, 25, 50)
         ),
         "group",
+        means=BY_WAVES,
     ),
     _experiment(
         "observing",
@@ -221,7 +231,7 @@ EXPERIMENTS = (
         "What does it cost to look and decide more seldom?",
         tuple(
             {"world": "campus", "robots": 15, "observe": period, "decide": period}
-            for period in (1, 2, 4, 8, 16, 0)
+            for period in (1, 2, 4, 8, 0)
         ),
         "decide",
         means=BY_WAVES,

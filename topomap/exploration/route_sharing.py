@@ -32,6 +32,7 @@ def routes(
     pace: float = 0.2,
     keep: float = 0.05,
     part: float = 2.4,
+    fade: float = 0.7,
 ) -> NDArray[np.int64]:
     r"""Send each robot to the first frontier of its route over all of them.
 
@@ -58,6 +59,11 @@ def routes(
         another plan was better by a hair would swing between them.
     part : float
         Most cells in a part, by the square of the reach.
+    fade : float
+        What an unknown cell counts by one that is a reach less deep, at most 1:
+        what lies far behind a frontier is likely to be reached from elsewhere,
+        or to be solid. With 1, robots before a row of stalls take the rock
+        behind the stalls for work, and are a fifth slower.
 
     Returns
     -------
@@ -68,7 +74,8 @@ def routes(
     Raises
     ------
     InputError
-        If `pace` or `part` is not finite and above 0, or `keep` is negative.
+        If `pace` or `part` is not finite and above 0, `keep` is negative, or
+        `fade` is not above 0 and at most 1.
 
     Notes
     -----
@@ -97,6 +104,8 @@ def routes(
             raise InputError(name, "", value, "a finite number above 0")
     if not (math.isfinite(keep) and keep >= 0):
         raise InputError("keep", "", keep, "a finite number of at least 0")
+    if not 0 < fade <= 1:
+        raise InputError("fade", "", fade, "a number above 0, at most 1")
     reachable = np.isfinite(costs)
     goals = np.flatnonzero(reachable.any(axis=0))
     chosen = np.full(len(costs), -1, dtype=np.int64)
@@ -110,6 +119,7 @@ def routes(
     behind = np.zeros((len(goals), 1))
     if details.beyond is not None:
         behind = np.asarray(details.beyond, dtype=float)[goals]
+        behind = behind * fade ** np.arange(behind.shape[1])
     of, depth, cells = parts(behind, float(max(1, band)), part * max(1, band) ** 2)
     begin = ways[:, of] + depth
     apart = _apart(ways, details, goals)[np.ix_(of, of)] + depth[:, None] + depth
