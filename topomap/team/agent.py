@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from topomap.exploring import Exploration, first_vertex, go, venture
+from topomap.headings import angle_of
 from topomap.team.choosing import Choice, Costs, Mate, choose
 from topomap.team.frontiers import way_lengths
 from topomap.team.messages import Beacon, MapReport, decode, encode
@@ -36,6 +38,8 @@ class Agent:
     known: Knowledge
     send: Callable[[bytes], None]
     receive: Callable[[], list[bytes]]
+    beset: Callable[[], float | None] = lambda: None
+    """Bearing of a robot that waits for this one to go away, in radians."""
     allocator: str = "minpos"
     costs: Costs = way_lengths
     returns: bool = False
@@ -210,7 +214,7 @@ def explore_with_others(agent: Agent) -> Task:
             agent.aim(None)
             agent.tell()
             waited += BEAT
-            yield Wait(BEAT)
+            yield from _stand(agent)
             continue
         waited = 0.0
         if choice.target is None:
@@ -242,7 +246,21 @@ def _rest(agent: Agent, choice: Choice) -> Task:
         agent.is_done, agent.done_at = True, agent.now
         agent.note("ends", choice.reason)
     agent.tell()
-    yield Wait(BEAT)
+    yield from _stand(agent)
+
+
+def _stand(agent: Agent) -> Task:
+    """Stand for a beat, or go one edge out of the way of another robot."""
+    found = agent.found
+    bearing = agent.beset()
+    exits = [q for q in range(4) if (found.here, q) in found.chart.links]
+    if bearing is None or not exits:
+        yield Wait(BEAT)
+        return
+    facing = bearing + angle_of(found.heading)
+    away = min(exits, key=lambda q: math.cos(angle_of(q) - facing))
+    agent.note("makes way", "another robot waits for it", (found.here, away))
+    yield from _attentively(agent, go(found, away))
 
 
 def _note_once(agent: Agent, kind: str, choice: Choice) -> None:
