@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from behaviours.port import Approach, Direction, Follow, Outcome, Primitive
 from worlds.detours import back_off, leave, part, sidestep
 from worlds.lookout import Doing, Lookout, Signal
-from worlds.manners import LONGEST, Act, Self, lane_of, passed, verdict
+from worlds.manners import LONGEST, Act, Self, is_abreast, lane_of, passed, verdict
 from worlds.physical import PhysicalBody
 from worlds.straight import Control, stop
 
@@ -139,6 +139,7 @@ class CrewBody(PhysicalBody):
             outcome = super().poll()
         if outcome is not None and self._eyes.aside:
             self._held = outcome
+            self.signal.doing = Doing.BUSY
             return None
         if outcome is not None:
             self.signal.doing = Doing.PARKED
@@ -181,8 +182,8 @@ class CrewBody(PhysicalBody):
         me = self._me()
         if self._touches():
             self._take(part(self.robot, self.lookout))
-        elif self._eyes.aside and (self._held or passed(me, mates)):
-            self._take(self._step_in(me))
+        elif self._eyes.aside and self._may_step_in(me):
+            self._take(self._step_in())
         elif self._held is None and verdict(me, mates).act is not Act.GO:
             self._take(self._give_way(me))
 
@@ -197,16 +198,20 @@ class CrewBody(PhysicalBody):
             mate.distance < close for mate in self.lookout.mates
         )
 
-    def _step_in(self, me: Self) -> Control[None]:
-        """Go back to the middle, once there is room."""
+    def _may_step_in(self, me: Self) -> bool:
+        """Return whether there is room in the middle, and a reason to be there."""
+        mates = self.lookout.mates
+        return not is_abreast(me, mates) if self._held else passed(me, mates)
+
+    def _step_in(self) -> Control[None]:
+        """Go back to the middle."""
         robot = self.robot
-        memory = robot.memory()
         yield from stop(robot)
-        while not passed(me, self.lookout.mates):
-            yield
+        memory, seen = robot.memory(), self.lookout.seen
         yield from sidestep(robot, self.lookout, -self._eyes.aside)
         self._eyes.step_aside(-self._eyes.aside)
         robot.remember(memory)
+        self.lookout.recall(seen, robot.turned)
 
     def _give_way(self, me: Self) -> Control[None]:
         """Wait, or make room, until the way is free; then all is as it was."""

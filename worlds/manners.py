@@ -14,7 +14,7 @@ from enum import Enum
 
 from worlds.lookout import Doing, Mate
 
-__all__ = ["Act", "Self", "Verdict", "lane_of", "passed", "verdict"]
+__all__ = ["Act", "Self", "Verdict", "is_abreast", "lane_of", "passed", "verdict"]
 
 GAP = 0.02
 """Least room between two bodies, in metres."""
@@ -117,6 +117,12 @@ def passed(me: Self, mates: Sequence[Mate]) -> bool:
     )
 
 
+def is_abreast(me: Self, mates: Sequence[Mate]) -> bool:
+    """Return whether somebody is beside a robot, where it wants to step."""
+    width = 2 * me.radius + 2 * GAP
+    return any(abs(mate.x) < width and abs(mate.y) < 2 * width for mate in mates)
+
+
 def _on_the_way(me: Self, mates: Sequence[Mate]) -> Verdict:
     """Decide for one that drives along a wall or a hall."""
     patience = _patience(me, mates)
@@ -168,7 +174,8 @@ def _nearest(mates: Sequence[Mate]) -> Mate | None:
 
 def _is_clear(me: Self, mate: Mate) -> bool:
     """Return whether a robot that goes straight on passes a mate."""
-    return abs(mate.y) > 2 * me.radius + GAP - BLUR * mate.distance
+    least = 2 * me.radius + GAP - BLUR * mate.distance
+    return abs(mate.y) > least + GAP * (me.waited > 0)
 
 
 def _cosine(me: Self, mate: Mate) -> float:
