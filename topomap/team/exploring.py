@@ -12,7 +12,7 @@ from topomap.errors import InputError
 from topomap.exploration.registry import find_allocator
 from topomap.exploring import Exploration
 from topomap.found import MAX_SIGMA, MAX_WALLS
-from topomap.team.agent import Agent
+from topomap.team.agent import MOST, Agent
 from topomap.team.channel import Channel, Radio
 from topomap.team.collecting import merge_all, robot_run
 from topomap.team.faults import Fault
@@ -36,8 +36,6 @@ __all__ = ["TARGETS", "explore"]
 
 TARGETS = ("graph", "grid")
 """Whether distances are those of the map's edges, or of a grid laid under them."""
-MOST = 64
-"""Robots of a team."""
 LIMIT = 1e5
 """Seconds after which a run is given up."""
 
