@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Exploration",
     "RefutedError",
+    "clear",
     "close_loop",
     "explore_halls",
     "first_vertex",
@@ -240,12 +241,21 @@ def go(found: Exploration, quarters: int) -> Behaviour[None]:
     found.here = there
 
 
-def _begin_anew(found: Exploration, place: Place) -> None:
-    """Unfold the map: all that is left of it is the place where the robot stands."""
+def clear(found: Exploration) -> None:
+    """Forget the map; vertices met from now on have numbers of their own."""
     found.chart.places.clear()
     found.chart.links.clear()
+    found.chart.became.clear()
     found.loops.clear()
     found.recognitions.clear()
+    found.closed = True
+
+
+def _begin_anew(found: Exploration, place: Place) -> None:
+    """Unfold the map: all that is left of it is the place where the robot stands."""
+    is_closed = found.closed
+    clear(found)
+    found.closed = is_closed
     found.here = found.chart.add_place(place)
 
 

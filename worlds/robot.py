@@ -11,13 +11,14 @@ import math
 from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from behaviours.port import Readings
 from worlds.edges import Glance
 from worlds.profile import Profile, looks_along
 from worlds.view import View
 
-__all__ = ["Robot"]
+__all__ = ["Memory", "Robot"]
 
 MEMORY = 192
 """Side readings that the robot keeps of the present leg."""
@@ -25,6 +26,18 @@ STAND = 1 / 20
 """How far from where it wants to be a robot may stand, in parts of r0."""
 AGREE = 1 / 6
 """Ranges ahead that differ by more, in parts of r0, are of different things."""
+
+
+class Memory(NamedTuple):
+    """What a robot knows of the leg that it is on."""
+
+    odometer: float
+    ahead: float
+    edge_behind: float | None
+    stepped_to: float | None
+    seed: Glance | None
+    trace: tuple[tuple[float, float, float, float], ...]
+    swept: int
 
 
 class Robot(ABC):
@@ -109,6 +122,21 @@ class Robot(ABC):
         self.lean += turn
         self.lean_variance += self.wander * abs(way)
         self.ahead -= way
+
+    def memory(self) -> Memory:
+        """Return what a detour must not change."""
+        known = self.odometer, self.ahead, self.edge_behind, self.stepped_to
+        return Memory(*known, self.seed, tuple(self.trace), len(self.sweep))
+
+    def remember(self, memory: Memory) -> None:
+        """Go on from where a detour began, the robot being back there."""
+        self.odometer, self.ahead = memory.odometer, memory.ahead
+        self.edge_behind, self.stepped_to = memory.edge_behind, memory.stepped_to
+        self.seed = memory.seed
+        self.trace.clear()
+        self.trace.extend(memory.trace)
+        del self.sweep[memory.swept :]
+        self._seen, self._missed = min(self._seen, 1), 0
 
     def readings(self, front: float = -1.0) -> Readings:
         """Return the newest readings; with `front`, what is known of the front."""

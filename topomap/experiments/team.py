@@ -22,6 +22,10 @@ if TYPE_CHECKING:
 
 __all__ = ["EXPERIMENTS", "explore_buildings"]
 
+MIXED = ("rooms", "office", "hospital")
+"""The kinds of building among which ``mixed`` draws."""
+SIZES = (50, 200)
+"""Fewest and most vertices of a mixed building."""
 GRID_CELL = 0.1
 """Side of a cell of the grid that a map is held against, in metres."""
 
@@ -56,17 +60,22 @@ def explore_buildings(cell: Cell, rng: np.random.Generator, trials: int) -> Tall
 
 
 def _building(kind: str, rng: np.random.Generator) -> World:
-    """Draw a building whose truth is known: some halls are too intricate for that."""
+    """Draw a building whose truth is known: some halls are too intricate for that.
+
+    Of kind ``mixed`` it is of any of `MIXED`, and of a size in `SIZES`.
+    """
     import worlds
     from worlds.errors import WorldError
 
     while True:
-        world = worlds.make(kind, rng)
+        drawn = MIXED[int(rng.integers(len(MIXED)))] if kind == "mixed" else kind
+        world = worlds.make(drawn, rng)
         try:
-            true_maps(world, Parameters())
+            vertices = sum(len(one.vertices) for one in true_maps(world, Parameters()))
         except WorldError:
             continue
-        return world
+        if kind != "mixed" or SIZES[0] <= vertices <= SIZES[1]:
+            return world
 
 
 def _faults(cell: Cell, robots: int, rng: np.random.Generator) -> tuple[Fault, ...]:
@@ -119,6 +128,7 @@ def _experiment(name: str, question: str, x: str, *cells: Cell) -> Experiment:
         shares=SHARES,
         means=MEANS,
         x=x,
+        paired=("target", x),
     )
 
 
@@ -130,12 +140,21 @@ EXPERIMENTS = (
         *({"robots": robots} for robots in (1, 2, 4, 8)),
     ),
     _experiment(
+        "team-buildings",
+        "Are the merged maps of buildings of 50 to 200 vertices correct?",
+        "world",
+        {"world": "mixed"},
+    ),
+    _experiment(
         "team-allocators",
         "How long does a team explore, by allocator?",
         "allocator",
         *(
             {"allocator": name, "target": "graph"}
-            for name in ("mindist", "greedy", "hungarian", "minmax", "minpos", "mpg")
+            for name in (
+                *("mindist", "greedy", "hungarian", "minmax"),
+                *("minpos", "mpg", "routes"),
+            )
         ),
         {"allocator": "minpos", "target": "grid"},
     ),
@@ -165,7 +184,7 @@ EXPERIMENTS = (
     ),
     _experiment(
         "team-physical",
-        "Do physical robots that pass through each other explore a building?",
+        "Do physical robots in one space explore a building?",
         "robots",
         *({"robots": robots, "body": "physical"} for robots in (1, 2, 4)),
     ),

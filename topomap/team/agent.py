@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from topomap.exploring import Exploration, first_vertex, go, venture
+from behaviours.automaton import UnforeseenError
+from topomap.errors import JobError
+from topomap.exploring import (
+    Exploration,
+    RefutedError,
+    clear,
+    first_vertex,
+    go,
+    venture,
+)
+from topomap.headings import angle_of
 from topomap.team.choosing import Choice, Costs, Mate, choose
 from topomap.team.frontiers import way_lengths
 from topomap.team.messages import Beacon, MapReport, decode, encode
@@ -24,6 +35,10 @@ PATIENCE = 120.0
 """Seconds after which a robot that is not heard any more is not counted on."""
 LONGEST_WAIT = 60.0
 """Seconds after which a robot goes where another should have gone."""
+MOST = 64
+"""Robots of a team; a map begun anew has its robot's number and so many more."""
+LIVES = 20
+"""How often a robot begins anew until it is given up."""
 GROWTH = 3
 """Vertices that two strangers' maps must grow by until they are compared again."""
 
@@ -36,6 +51,8 @@ class Agent:
     known: Knowledge
     send: Callable[[bytes], None]
     receive: Callable[[], list[bytes]]
+    beset: Callable[[], float | None] = lambda: None
+    """Bearing of a robot that waits for this one to go away, in radians."""
     allocator: str = "minpos"
     costs: Costs = way_lengths
     returns: bool = False
@@ -64,7 +81,7 @@ class Agent:
     @property
     def robot(self) -> int:
         """Its number."""
-        return self.known.robot
+        return self.known.robot % MOST
 
     def hear(self) -> None:
         """Take in what has arrived; the newest of each kind and robot counts."""
@@ -88,7 +105,12 @@ class Agent:
             self.send(
                 encode(
                     Beacon(
-                        *(self.robot, self._beacons, self._version, self.found.here),
+                        *(
+                            self.known.robot,
+                            self._beacons,
+                            self._version,
+                            self.found.here,
+                        ),
                         *(self._target, self._is_venturing, heard),
                     )
                 )
@@ -131,7 +153,8 @@ class Agent:
                 target = self._claim(k, beacon)
                 mates[k] = Mate(place, target, beacon.is_venturing)
         return choose(
-            *(chart, self.robot, self.found.here, mates, self.allocator, self.costs)
+            *(chart, self.known.robot, self.found.here, mates),
+            *(self.allocator, self.costs),
         )
 
     def note(
@@ -150,6 +173,22 @@ class Agent:
             self._next_beacon = self.now
         self._target, self._is_venturing = target, ventures
 
+    def begin_anew(self, reason: str) -> None:
+        """Drop the map, and go on as a robot that has just been set down.
+
+        Under another name: what others have learned of its old map stays theirs.
+        """
+        self.note("begins anew", reason)
+        found, known = self.found, self.known
+        clear(found)
+        known.robot += MOST
+        known.names.clear()
+        known.turns.clear()
+        self._learned.clear()
+        self._refused.clear()
+        self._version, self._state, self.report = 0, (0, 0, 0), b""
+        self.aim(None)
+
     def _claim(self, robot: int, beacon: Beacon) -> tuple[int, int] | None:
         """Return another's target in one's own vertices and directions."""
         if beacon.target is None:
@@ -162,7 +201,7 @@ class Agent:
     def _is_missed(self) -> bool:
         """Return whether some robot heard just now lacks the newest map."""
         return any(
-            beacon.heard.get(self.robot, 0) < self._version
+            beacon.heard.get(self.known.robot, 0) < self._version
             for beacon, heard_at in self._peers.values()
             if self.now - heard_at <= 2 * BEAT
         )
@@ -196,6 +235,17 @@ def explore_with_others(agent: Agent) -> Task:
         A coroutine without an end: a robot that has nothing left to do stands, tells
         what it knows, and goes on if it hears of something open.
     """
+    for _ in range(LIVES):
+        try:
+            yield from _explore(agent)
+        except (JobError, RefutedError, UnforeseenError) as error:
+            last = error
+            agent.begin_anew(str(error))
+    raise last
+
+
+def _explore(agent: Agent) -> Task:
+    """Explore, from where the robot stands, with nothing known."""
     found, chart = agent.found, agent.found.chart
     yield from _attentively(agent, first_vertex(found))
     waited = 0.0
@@ -210,7 +260,7 @@ def explore_with_others(agent: Agent) -> Task:
             agent.aim(None)
             agent.tell()
             waited += BEAT
-            yield Wait(BEAT)
+            yield from _stand(agent)
             continue
         waited = 0.0
         if choice.target is None:
@@ -242,7 +292,21 @@ def _rest(agent: Agent, choice: Choice) -> Task:
         agent.is_done, agent.done_at = True, agent.now
         agent.note("ends", choice.reason)
     agent.tell()
-    yield Wait(BEAT)
+    yield from _stand(agent)
+
+
+def _stand(agent: Agent) -> Task:
+    """Stand for a beat, or go one edge out of the way of another robot."""
+    found = agent.found
+    bearing = agent.beset()
+    exits = [q for q in range(4) if (found.here, q) in found.chart.links]
+    if bearing is None or not exits:
+        yield Wait(BEAT)
+        return
+    facing = bearing + angle_of(found.heading)
+    away = min(exits, key=lambda q: math.cos(angle_of(q) - facing))
+    agent.note("makes way", "another robot waits for it", (found.here, away))
+    yield from _attentively(agent, go(found, away))
 
 
 def _note_once(agent: Agent, kind: str, choice: Choice) -> None:

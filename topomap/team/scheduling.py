@@ -12,7 +12,7 @@ from topomap.errors import JobError
 from topomap.exploring import RefutedError
 from topomap.team.agent import Agent, explore_with_others
 from topomap.team.tasks import Task, Wait
-from worlds.physical import PhysicalBody
+from worlds.crew_body import CrewBody
 
 if TYPE_CHECKING:
     from behaviours.port import Outcome
@@ -30,7 +30,7 @@ class Member:
     """A robot of a simulated team: mind, body, and what happens to it."""
 
     agent: Agent
-    body: IdealBody | PhysicalBody
+    body: IdealBody | CrewBody
     comes: float = 0.0
     """When it is set down, in seconds."""
     dies: float = float("inf")
@@ -123,7 +123,7 @@ def run_in_arena(team: Sequence[Member], arena: Arena, limit: float) -> float:
         When the last robot was done, or the limit.
     """
     tasks = [explore_with_others(member.agent) for member in team]
-    bodies = [m.body for m in team if isinstance(m.body, PhysicalBody)]
+    bodies = [m.body for m in team if isinstance(m.body, CrewBody)]
     rests = [member.comes for member in team]
     is_busy = [False] * len(team)
     while arena.clock <= limit:
@@ -150,7 +150,7 @@ def run_in_arena(team: Sequence[Member], arena: Arena, limit: float) -> float:
 
 def _decide(
     member: Member,
-    body: PhysicalBody,
+    body: CrewBody,
     task: Task,
     outcome: Outcome | None,
     now: float,
