@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,7 @@ from worlds.errors import WorldError
 if TYPE_CHECKING:
     import numpy as np
 
+    from behaviours.port import Body
     from topomap.mapping import Build
 
 __all__ = ["EXPERIMENTS"]
@@ -29,9 +31,14 @@ def hall_worlds(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
     total: Counter[str] = Counter()
     for _ in range(trials):
         world = worlds.make(str(cell["kind"]), rng)
+        robots: list[Body] = []
         try:
             built = build_map(
-                world, rng, body=str(cell["body"]), sigma=float(cell["sigma"])
+                world,
+                rng,
+                body=str(cell["body"]),
+                sigma=float(cell["sigma"]),
+                watch=partial(_keep, robots),
             )
         except WorldError:
             total["failed: world refused"] += 1
@@ -43,9 +50,16 @@ def hall_worlds(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
                 module = type(cause.state).__module__.rpartition(".")[2]
                 where = f"{module} {cause.state.name}"
             total[f"failed: {where}"] += 1
+            total["contacts when failed"] += robots[0].collisions
             continue
         total.update(_tallies(built))
     return dict(total)
+
+
+def _keep(robots: list[Body], robot: Body) -> Body:
+    """Keep hold of a robot whose build may fail."""
+    robots.append(robot)
+    return robot
 
 
 def _tallies(built: Build) -> Tallies:
@@ -53,6 +67,7 @@ def _tallies(built: Build) -> Tallies:
     once = sum(edge.fused.value for edge in built.map.edges)
     walked = sum(length.value for edge in built.map.edges for length in edge.lengths)
     tallies: Tallies = {
+        "mapped": 1,
         "correct": int(built.correct),
         "complete": int(built.map.unexplored_exits == 0),
         "vertices": len(built.map.vertices),
@@ -94,6 +109,7 @@ def _experiment(
         batch_size=10 if body == "ideal" else 2,
         shares=("correct", "complete"),
         means=MEANS,
+        over="mapped",
         x="kind" if len(sigmas) == 1 else "sigma",
     )
 
