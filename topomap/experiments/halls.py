@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 from functools import partial
 from itertools import product
 from typing import TYPE_CHECKING
@@ -18,27 +19,72 @@ if TYPE_CHECKING:
 
     from behaviours.port import Body
     from topomap.mapping import Build
+    from worlds.profile import Profile
 
 __all__ = ["EXPERIMENTS"]
 
+SIGMA = 0.06
+"""The usual error of a length, as a part of it."""
+LIMITS = {
+    "noise of rangers, times": (1, 2, 4, 8),
+    "error of lengths": (0.10, 0.15, 0.20),
+    "slip, drift and turns, times": (2, 4, 8),
+    "radius / r_w": (0.5, 0.6, 0.7),
+}
+"""What is made worse in `halls-limits`, and the values it takes."""
 KINDS = ("rooms", "halls", "maze", "office", "hospital")
 
 
 def hall_worlds(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
     """Map worlds of the cell's kind with the cell's body."""
+    kind, body, sigma = str(cell["kind"]), str(cell["body"]), float(cell["sigma"])
+    return _map_worlds(kind, body, sigma, rng, trials)
+
+
+def limits(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
+    """Map worlds with a physical body of which one thing is worse than usual."""
+    sigma, profile = worse(str(cell["what"]), float(cell["value"]))
+    return _map_worlds(str(cell["kind"]), profile, sigma, rng, trials)
+
+
+def worse(what: str, value: float) -> tuple[float, Profile]:
+    """Return the error of lengths and the profile of one cell of `halls-limits`."""
+    from worlds.profiles import GENERIC
+
+    match what:
+        case "noise of rangers, times":
+            rangers = tuple(
+                replace(
+                    ranger,
+                    noise=value * ranger.noise,
+                    noise_growth=value * ranger.noise_growth,
+                )
+                for ranger in GENERIC.rangers
+            )
+            return SIGMA, replace(GENERIC, rangers=rangers)
+        case "slip, drift and turns, times":
+            names = ("slip", "encoder_noise", "drift", "turn_error")
+            more = {name: value * getattr(GENERIC, name) for name in names}
+            return SIGMA, replace(GENERIC, **more)
+        case "radius / r_w":
+            return SIGMA, replace(GENERIC, radius=value * GENERIC.parameters.r_w)
+        case _:
+            return value, GENERIC
+
+
+def _map_worlds(
+    kind: str, body: str | Profile, sigma: float, rng: np.random.Generator, trials: int
+) -> Tallies:
+    """Map worlds of a kind, and count what came of it."""
     import worlds
 
     total: Counter[str] = Counter()
     for _ in range(trials):
-        world = worlds.make(str(cell["kind"]), rng)
+        world = worlds.make(kind, rng)
         robots: list[Body] = []
         try:
             built = build_map(
-                world,
-                rng,
-                body=str(cell["body"]),
-                sigma=float(cell["sigma"]),
-                watch=partial(_keep, robots),
+                world, rng, body=body, sigma=sigma, watch=partial(_keep, robots)
             )
         except WorldError:
             total["failed: world refused"] += 1
@@ -135,5 +181,22 @@ EXPERIMENTS = (
         "physical",
         (0.06,),
         trials=40,
+    ),
+    Experiment(
+        "halls-limits",
+        "What makes the physical body fail in worlds of rooms and halls?",
+        tuple(
+            {"kind": "halls", "what": what, "value": value}
+            for what, values in LIMITS.items()
+            for value in values
+        ),
+        limits,
+        trials=20,
+        batch_size=2,
+        shares=("correct", "complete"),
+        means=MEANS,
+        over="mapped",
+        x="value",
+        paired=("what", "value"),
     ),
 )
