@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["HallParts", "Junction", "Mouth", "Stretch", "Wall", "hall_parts"]
+__all__ = ["HallParts", "Junction", "OpenSpace", "Stretch", "Wall", "hall_parts"]
 
 ROUNDING = 1e-6
 
@@ -27,7 +27,7 @@ class Junction(NamedTuple):
     number: int
 
 
-class Mouth(NamedTuple):
+class OpenSpace(NamedTuple):
     """A stretch ends in open space."""
 
 
@@ -35,7 +35,7 @@ class Wall(NamedTuple):
     """A stretch ends at a wall."""
 
 
-End = Junction | Mouth | Wall
+End = Junction | OpenSpace | Wall
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +105,7 @@ def hall_parts(
     >>> rooms = shapely.union_all([shapely.box(0, 0, 2, 2), shapely.box(5, 0, 7, 2)])
     >>> hall, = hall_parts(free, rooms, 0.6).stretches
     >>> hall.axis, hall.low, hall.high, hall.ends
-    (0, (2.0, 1.0, 1.5), (5.0, 1.0, 1.5), (Mouth(), Mouth()))
+    (0, (2.0, 1.0, 1.5), (5.0, 1.0, 1.5), (OpenSpace(), OpenSpace()))
     """
     narrow = free.difference(swept)
     if narrow.area < ROUNDING:
@@ -252,7 +252,7 @@ def _end(kinds: NDArray[np.int64], run: tuple[int, int, int], step: int) -> End:
     if not beside:
         return Wall()
     if beside == {-1}:
-        return Mouth()
+        return OpenSpace()
     return Junction(max(beside))
 
 
