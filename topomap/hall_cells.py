@@ -87,7 +87,8 @@ def hall_parts(
     Raises
     ------
     WorldError
-        If a junction is no rectangle, or a hall forks without one; names the place.
+        If a junction is no rectangle or lies open to a room, or a hall forks without
+        one; names the place.
 
     Notes
     -----
@@ -121,7 +122,10 @@ def hall_parts(
     along_y = is_narrow & (across_y <= width + ROUNDING)
     if (both := along_x & along_y).any():
         raise _intricate(xs, ys, both, "a place closed in from all sides")
-    numbers, _ = ndimage.label(is_narrow & ~along_x & ~along_y)
+    is_junction = is_narrow & ~along_x & ~along_y
+    if (bare := is_junction & ndimage.binary_dilation(is_open)).any():
+        raise _intricate(xs, ys, bare, "a junction of halls that lies open to a room")
+    numbers, _ = ndimage.label(is_junction)
     junctions = tuple(_rectangles(numbers, xs, ys, slack))
     # What lies at a cell: -2 a wall, -1 open space, k >= 0 junction k; -3 a hall.
     kinds = np.where(is_free, np.where(is_open, -1, numbers - 1), -2)
