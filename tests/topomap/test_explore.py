@@ -17,7 +17,7 @@ from behaviours.probe import probe
 from behaviours.travel import travel
 from behaviours.vertices import VertexType
 from tests.worlds.hall_class import census
-from topomap import build_map, compare_maps, exploring
+from topomap import build_map, compare_maps, walking
 from topomap.closers import make_closer
 from topomap.errors import InputError
 from topomap.hall_loops import _without_straight
@@ -321,7 +321,7 @@ def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, sl
         arrival = yield from travel(*args)
         return replace(arrival, length=arrival.length + off)
 
-    monkeypatch.setattr(exploring, "travel", travelled)
+    monkeypatch.setattr(walking, "travel", travelled)
     built = build_map(TWO_ROOMS, np.random.default_rng(1), sigma=0.0, max_walls=150)
     assert len(built.refuted) == 1
     assert "was expected" in built.refuted[0]

@@ -6,12 +6,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from topomap.exploring import Exploration, first_vertex, go, venture
+from topomap.explored import Exploration
+from topomap.exploring import first_vertex, venture
 from topomap.team.choosing import Choice, Costs, Mate, choose
 from topomap.team.frontiers import way_lengths
 from topomap.team.messages import Beacon, MapReport, decode, encode
 from topomap.team.sharing import Knowledge, learn, report_of
 from topomap.team.tasks import Event, Task, Wait
+from topomap.walking import go
 
 if TYPE_CHECKING:
     from behaviours.port import Behaviour, Outcome
