@@ -17,10 +17,11 @@ from behaviours.probe import probe
 from behaviours.travel import travel
 from behaviours.vertices import VertexType
 from tests.worlds.hall_class import census
-from topomap import build_map, compare_maps, exploring
+from topomap import build_map, compare_maps, walking
 from topomap.closers import make_closer
 from topomap.errors import InputError, JobError
-from topomap.hall_truth import _without_straight, true_hall_maps
+from topomap.hall_loops import _without_straight
+from topomap.hall_truth import true_hall_maps
 from topomap.truth import true_map, true_maps
 from worlds.errors import WorldError
 from worlds.ideal import IdealBody
@@ -245,7 +246,10 @@ def test_the_wall_opposite_is_examined_and_left_again():
         # An opening that begins 10 cm from a corner of the room.
         (((0, 0, 3, 3), (3, 0.1, 5, 0.6)), "from the corner beside it"),
         # Two halls at one corner.
-        (((0, 0, 3, 3), (3, 0, 5, 0.5), (2.5, -2, 3, 0)), "one hall at an inner"),
+        (
+            ((0, 0, 3, 3), (3, 0, 5, 0.5), (2.5, -2, 3, 0)),
+            "another hall opens at the same inner",
+        ),
         # A crossing whose halls are shifted against each other.
         (
             ((0, 0, 2, 2), (2, 0.8, 6, 1.3), (4, 1.3, 4.5, 3), (4.3, -1, 4.8, 0.8)),
@@ -378,7 +382,7 @@ def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, sl
         arrival = yield from travel(*args)
         return replace(arrival, length=arrival.length + off)
 
-    monkeypatch.setattr(exploring, "travel", travelled)
+    monkeypatch.setattr(walking, "travel", travelled)
     built = build_map(TWO_ROOMS, np.random.default_rng(1), sigma=0.0, max_walls=150)
     assert len(built.refuted) == 1
     assert "was expected" in built.refuted[0]

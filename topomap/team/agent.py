@@ -9,20 +9,15 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
-from topomap.exploring import (
-    Exploration,
-    RefutedError,
-    clear,
-    first_vertex,
-    go,
-    venture,
-)
+from topomap.explored import Exploration, RefutedError
+from topomap.exploring import first_vertex, venture
 from topomap.headings import angle_of
 from topomap.team.choosing import Choice, Costs, Mate, choose
 from topomap.team.frontiers import way_lengths
 from topomap.team.messages import Beacon, MapReport, decode, encode
 from topomap.team.sharing import Knowledge, learn, report_of
 from topomap.team.tasks import Event, Task, Wait
+from topomap.walking import go
 
 if TYPE_CHECKING:
     from behaviours.port import Behaviour, Outcome
@@ -180,7 +175,7 @@ class Agent:
         """
         self.note("begins anew", reason)
         found, known = self.found, self.known
-        clear(found)
+        found.clear()
         known.robot += MOST
         known.names.clear()
         known.turns.clear()

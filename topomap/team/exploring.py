@@ -10,7 +10,7 @@ from topomap.bodies import body_parameters, body_slip
 from topomap.closers import make_closer
 from topomap.errors import InputError
 from topomap.exploration.registry import find_allocator
-from topomap.exploring import Exploration
+from topomap.explored import Exploration
 from topomap.found import MAX_SIGMA, MAX_WALLS
 from topomap.team.agent import MOST, Agent
 from topomap.team.channel import Channel, Radio
