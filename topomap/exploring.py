@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import perform
@@ -280,7 +280,7 @@ def _identify(found: Exploration, vertex: int) -> Behaviour[bool]:
             unsure.pop()
             continue
         recognition = recognise(chart, found.parameters, found.sigma, vertex)
-        found.recognitions.append(recognition)
+        found.recognitions.append(replace(recognition, walls=found.walls))
         if not recognition.is_sure(found.error):
             best, _ = recognition.candidates[0]
             telling = _telling_way(chart, vertex, best)
