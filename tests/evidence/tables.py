@@ -37,9 +37,7 @@ def measure(name, sigma, args, told=1.0, noise="model"):
     """Return one row: counts for both rules over all worlds of a class."""
     rng = np.random.default_rng([args.seed, *name.encode()])
     noises = np.random.default_rng([args.seed, round(1e4 * sigma), *noise.encode()])
-    rule = LikelihoodRule(
-        full_lap=args.full_lap, epsilon=args.epsilon, slip=args.slip
-    )
+    rule = LikelihoodRule(full_lap=args.full_lap, epsilon=args.epsilon, slip=args.slip)
     counts = np.zeros((2, 3), dtype=int)  # rule by right, wrong, undecided
     silent, extra, stated = 0, [], []
     for _ in range(args.worlds):
