@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from behaviours.parameters import Parameters
-from topomap.closers import SLIP
 from topomap.errors import InputError
 from topomap.incursions.errors import Drift
 from worlds.profile import Profile
@@ -31,6 +30,9 @@ BODIES = ("ideal", "physical", "generic", "generic5", "epuck")
 """The ideal body; the default physical robot; physical robots by profile."""
 HEADING = 0.02
 """How surely a physical body that has followed a wall is parallel to it, in radians."""
+SELDOM = 1e-6
+"""How often a simulated physical body is taken to misjudge a corner: so seldom that
+walls need not be met twice for it."""
 STAND = 0.1
 """How surely it stands at a corner, in parts of r0."""
 
@@ -82,14 +84,16 @@ def body_drift(name: str | Profile, sigma: float) -> Drift:
 def body_slip(name: str) -> float:
     """Return how often a body misses, invents or misjudges a corner.
 
-    The ideal body never does; of the others nothing is known for certain.
+    The ideal body never does. Nor was a simulated physical one seen to, in the 200
+    maps of `reproduce mapping-physical`; it is still ready for it, and its loops may
+    begin at a later vertex. Of a real robot see `topomap.closers.SLIP`.
 
     Raises
     ------
     InputError
         If there is no such body.
     """
-    return 0.0 if body_profile(name) is None else SLIP
+    return 0.0 if body_profile(name) is None else SELDOM
 
 
 def make_body(

@@ -1,7 +1,9 @@
 """The likelihood test: exact where the odometry is, right or undecided elsewhere."""
 
 import math
+import zlib
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +11,14 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from scipy import integrate, stats
 
-from evidence import LikelihoodCloser, LikelihoodRule, RelativeError, Wall
+import evidence.likelihood_trials as likelihood_trials_module
+from evidence import (
+    LikelihoodCloser,
+    LikelihoodRule,
+    RelativeError,
+    Wall,
+    tracking,
+)
 from evidence.likelihood_trials import likelihood_trials
 from evidence.tracking import _log_marginal, new_track, restart, step
 from tests.evidence.test_dempster_shafer import QUARTER, last_decision, walked
@@ -55,6 +64,19 @@ def test_compiled_loop_decides_like_the_library_walk_by_walk(rule):
                 if period:
                     assert decision.start == start
                     assert decision.error_probability == error
+
+
+def test_the_compiled_loop_is_made_anew_when_the_step_changes():
+    # Its closure, which is in the key of numba's cache, tells the step's file.
+    walk = np.ones((0, 4)), np.zeros((0, 5), dtype=np.int64), np.ones((0, 4))
+    empty = np.zeros(0, dtype=np.int64)
+    track = new_track(4, EXACT.row(0.1), EXACT.log_prior())
+    stamp = likelihood_trials_module._loop(
+        *(track, empty, *walk, empty, empty, np.zeros(0), empty)
+    )
+    assert stamp == zlib.crc32(Path(tracking.__file__).read_bytes())
+    (cell,) = likelihood_trials_module._loop.py_func.__closure__
+    assert cell.cell_contents == stamp
 
 
 def rates(shape_of, sigma, worlds, runs, told=1.0, rule=None, laps=4):

@@ -16,6 +16,7 @@ import numpy as np
 from evidence.dempster_shafer import PublishedRule
 from evidence.likelihood import LikelihoodRule
 from topomap.experiments.experiment import Cell, Experiment, Tallies, spread
+from topomap.experiments.reliability import fill_reliability
 from topomap.experiments.shapes import CLASSES
 from topomap.experiments.walking import deviations, laps_for, slipped, walks
 
@@ -186,25 +187,28 @@ EXPERIMENTS = (
         ),
         ("rule",),
     ),
-    _experiment(
-        "closing-reliability",
-        "How often is a closure wrong that was accepted at an error below epsilon?",
-        "epsilon",
-        ("wrong", "correct", "undecided"),
-        _cells(
-            world=CALIBRATED,
-            sigma=(0.2,),
-            noise=("model",),
-            rule=RULES[2:],
-            epsilon=EPSILONS,
-        )
-        + _cells(
-            world=("small", "medium"),
-            sigma=(0.1,),
-            noise=("slips",),
-            rule=RULES[1:2],
-            epsilon=EPSILONS,
+    replace(
+        _experiment(
+            "closing-reliability",
+            "How often is a closure wrong that was accepted at an error below epsilon?",
+            "epsilon",
+            ("wrong", "correct", "undecided"),
+            _cells(
+                world=CALIBRATED,
+                sigma=(0.2,),
+                noise=("model",),
+                rule=RULES[2:],
+                epsilon=EPSILONS,
+            )
+            + _cells(
+                world=("small", "medium"),
+                sigma=(0.1,),
+                noise=("slips",),
+                rule=RULES[1:2],
+                epsilon=EPSILONS,
+            ),
+            ("epsilon",),
         ),
-        ("epsilon",),
+        fill=fill_reliability,
     ),
 )

@@ -7,9 +7,12 @@ import zlib
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = [
     "Batch",
@@ -27,6 +30,8 @@ Cell: TypeAlias = "Mapping[str, str | int | float]"
 """The conditions of a row of the table, by name."""
 Tallies: TypeAlias = "dict[str, float]"
 """Sums over trials, by measure."""
+Fill: TypeAlias = "Callable[[Figure, Experiment, Mapping[int, Tallies]], None]"
+"""Fills an empty figure from the tallies of each cell."""
 Batch: TypeAlias = "Callable[[Cell, np.random.Generator, int], Tallies]"
 """Makes so many trials in a cell and adds up what came of them."""
 
@@ -57,6 +62,8 @@ class Experiment:
     """Conditions that do not enter the seed: their cells see the same draws."""
     medians: tuple[str, ...] = ()
     """Tallies from `spread`, shown as medians."""
+    fill: Fill | None = None
+    """Draws the plot, if not a line for each cell over `x`."""
 
 
 @dataclass(frozen=True, slots=True)

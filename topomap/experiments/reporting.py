@@ -122,7 +122,14 @@ def _share(hits: float, trials: float) -> str:
 
 
 def plot(experiment: Experiment, cells: Mapping[int, Tallies], path: Path) -> None:
-    """Draw the first share over the experiment's axis, a line for each other cell."""
+    """Draw the first share over the experiment's axis, a line for each other cell.
+
+    An experiment may have a plot of its own instead: `Experiment.fill`.
+    """
+    own = experiment.fill
+    if own is not None:
+        save_figure(path, lambda figure: own(figure, experiment, cells))
+        return
     share = experiment.shares[0]
     x = experiment.x or next(iter(experiment.cells[0]))
     lines: dict[str, list[Point]] = defaultdict(list)
