@@ -132,8 +132,8 @@ def decide(
         return Match(False, reason, wrong, best, others, hypotheses, at_a, at_b)
     verified = verify(*layouts, at_a, at_b, best, options)
     copies = [
-        find_copies(graph, layout, best.pairs[:, side], options)
-        for side, (graph, layout) in enumerate(zip((a, b), layouts, strict=True))
+        find_copies(layout, best.pairs[:, side], options)
+        for side, layout in enumerate(layouts)
     ]
     told = told_by_copies(copies, len(best.pairs), best.score)
     against = told + CLASH * len(verified.clashes)

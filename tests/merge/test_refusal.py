@@ -197,7 +197,7 @@ def told_share(graph, vertices):
     vertices = np.array(vertices)
     part = lay_out(cut(graph, vertices))
     score = grow_hypotheses(part, lay_out(graph), Options()).score.max()
-    copies = find_copies(graph, lay_out(graph), vertices, Options())
+    copies = find_copies(lay_out(graph), vertices, Options())
     return told_by_copies([copies], len(vertices), score) / score
 
 
