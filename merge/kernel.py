@@ -145,19 +145,29 @@ def grow_all(
     count = 0
     filled = 0
     tried = 0
+    # The greatest length that a row, or one before it of its key, allows.
+    top = row_b[:, 0] + np.sqrt(most * row_b[:, 1])
+    for y in range(1, len(key_b)):
+        if key_b[y] == key_b[y - 1] and top[y] < top[y - 1]:
+            top[y] = top[y - 1]
     lo = 0
+    end = 0
     for x in range(len(key_a)):
         a1, a2 = entry_a[x, 0], entry_a[x, 1]
         while lo < len(key_b) and key_b[lo] < key_a[x]:
             lo += 1
+        end = max(end, lo)
+        while end < len(key_b) and key_b[end] == key_a[x]:
+            end += 1
         u = a.owner[a1]
         p = a.first[u]
         high = a.length[a1] + math.sqrt(most * a.variance[a1])
         la1, va1 = a.length[a1], most * a.variance[a1]
         la2, va2 = a.length[a2], most * a.variance[a2]
-        for y in range(lo, len(key_b)):
+        low = a.length[a1] - math.sqrt(most * a.variance[a1])
+        for y in range(lo + np.searchsorted(top[lo:end], low), end):
             # Rows rise with the least true length that they allow.
-            if key_b[y] != key_a[x] or row_b[y, 4] > high:
+            if row_b[y, 4] > high:
                 break
             d = la1 - row_b[y, 0]
             if d * d > va1 + most * row_b[y, 1]:
