@@ -81,7 +81,7 @@ def body_drift(name: str | Profile, sigma: float) -> Drift:
     )
 
 
-def body_slip(name: str) -> float:
+def body_slip(name: str | Profile) -> float:
     """Return how often a body misses, invents or misjudges a corner.
 
     The ideal body never does. Nor was a simulated physical one seen to, in the 200

@@ -16,7 +16,7 @@ from topomap.incursions.agenda import (
     is_needless,
 )
 from topomap.incursions.candidates import Options
-from topomap.incursions.keeping import finished, keep
+from topomap.incursions.keeping import finished, keep, placed_anew
 from topomap.incursions.known_space import free_space
 from topomap.incursions.search import outward
 from topomap.routes.costs import all_distances
@@ -106,6 +106,7 @@ def explore_space(
     for _ in range(MOST_PLANS):
         if free_space(journey.layout) is None and (yield from _probe(survey)):
             continue
+        journey.chart = placed_anew(journey.chart, survey.options).chart
         agenda = agenda_of(
             journey, survey.options, survey.crossed, survey.tried, survey.may_link
         )

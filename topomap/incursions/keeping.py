@@ -24,11 +24,12 @@ from topomap.topological_map import Length
 
 if TYPE_CHECKING:
     from topomap.incursions.candidates import Options
+    from topomap.incursions.layout import Layout
     from topomap.routes.journey import Journey, Outcome
     from topomap.routes.steps import Arrival
     from topomap.topological_map import Edge, TopologicalMap
 
-__all__ = ["finished", "keep"]
+__all__ = ["finished", "keep", "placed_anew"]
 
 
 def keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
@@ -75,23 +76,30 @@ def finished(
     crossed : list of Crossed
         What was swept on the ways across.
     """
-    layout = lay_out(embedded(chart))
-    chart = _trusted(with_sureness(layout, options.drift))
-    layout = replace(layout, chart=chart)
+    layout = placed_anew(chart, options)
+    is_sure = [e.kind != "active" or e.sureness >= TRUSTED for e in layout.chart.edges]
+    edges = list(zip(layout.chart.edges, is_sure, strict=True))
+    kept = tuple(edge for edge, ok in edges if ok)
+    layout = replace(layout, chart=replace(layout.chart, edges=kept))
     space = known_space(layout, geometry_of(layout, crossed))
-    return with_passive(layout, space, options)
+    improved = with_passive(layout, space, options)
+    return _joined(improved, [edge for edge, ok in edges if not ok])
 
 
-def _trusted(chart: TopologicalMap) -> TopologicalMap:
-    """Leave out driven incursions that are not sure, unless only they lead there."""
+def placed_anew(chart: TopologicalMap, options: Options) -> Layout:
+    """Lay out a map by all that was measured, and reckon anew what can be trusted."""
+    layout = lay_out(embedded(chart))
+    return replace(layout, chart=with_sureness(layout, options.drift))
+
+
+def _joined(chart: TopologicalMap, unsure: list[Edge]) -> TopologicalMap:
+    """Add unsure incursions, the surest first, where nothing else leads there."""
     import networkx as nx
 
-    is_sure = [e.kind != "active" or e.sureness >= TRUSTED for e in chart.edges]
     graph = sure_ways(chart)
-    kept = [e for e, ok in zip(chart.edges, is_sure, strict=True) if ok]
-    left = [e for e, ok in zip(chart.edges, is_sure, strict=True) if not ok]
-    for edge in sorted(left, key=lambda e: -e.sureness):
+    added: list[Edge] = []
+    for edge in sorted(unsure, key=lambda e: -e.sureness):
         if not nx.has_path(graph, edge.source, edge.target):
             graph.add_edge(edge.source, edge.target)
-            kept.append(edge)
-    return replace(chart, edges=tuple(kept))
+            added.append(edge)
+    return replace(chart, edges=(*chart.edges, *added))
