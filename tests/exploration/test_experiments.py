@@ -14,9 +14,10 @@ from topomap.experiments.catalogue import find
 from topomap.experiments.experiment import run_task, tasks_of
 from topomap.experiments.ratios import average_ratio, main, ratio_table, read_times
 from topomap.experiments.running import run_experiment
+from topomap.exploration.starts import largest_region
 
 
-@pytest.mark.parametrize("name", ["stable", "deciding", "trees"])
+@pytest.mark.parametrize("name", ["stable", "deciding", "trees", "hindsight"])
 def test_a_batch_gives_times_of_every_allocator(name, monkeypatch):
     experiment = find(f"exploring-{name}")
     if name == "deciding":
@@ -28,6 +29,9 @@ def test_a_batch_gives_times_of_every_allocator(name, monkeypatch):
         monkeypatch.setattr(
             exploring, "maze", lambda rng, _, **how: whole(rng, 17, **how)
         )
+    if name == "hindsight":
+        small = partial(exploring.maze, size=25)
+        monkeypatch.setitem(exploring.WORLDS, "maze", small)
     (task, *_) = tasks_of(experiment, 1, seed=0)
     tallies = run_task(experiment, task)
     assert tallies["trials"] == 1
@@ -36,12 +40,14 @@ def test_a_batch_gives_times_of_every_allocator(name, monkeypatch):
     for share in experiment.shares:
         assert tallies[share] in (0, 1)
     assert tallies == run_task(experiment, task)
+    if name == "hindsight":
+        assert tallies["least"] <= min(tallies[each] for each in experiment.means)
     if name == "trees":
         assert all(tallies[each] >= tallies["bound"] for each in exploring.NAMES)
 
 
 def test_weights_that_do_not_count_leave_the_nearest_frontier(monkeypatch):
-    monkeypatch.setattr(exploring, "grid_world", partial(_small_world))
+    monkeypatch.setitem(exploring.WORLDS, "maze", partial(exploring.maze, size=25))
     tallies = exploring.search_weights(
         {"world": "maze", "robots": 2}, np.random.default_rng(0), 1
     )
@@ -49,8 +55,12 @@ def test_weights_that_do_not_count_leave_the_nearest_frontier(monkeypatch):
     assert len({tallies[name] for name in exploring.WEIGHTS}) > 1
 
 
-def _small_world(kind, rng):
-    return exploring.maze(rng, 25)
+@pytest.mark.parametrize("kind", exploring.WORLDS)
+def test_worlds_of_experiments_are_closed_and_in_one_piece(kind):
+    free = exploring.WORLDS[kind](np.random.default_rng(3))
+    assert not free[[0, -1]].any()
+    assert not free[:, [0, -1]].any()
+    assert largest_region(free).sum() == free.sum()
 
 
 @pytest.mark.parametrize(
@@ -62,6 +72,7 @@ def _small_world(kind, rng):
         "streets",
         "stable",
         "trees",
+        "hindsight",
         "weights",
         "groups",
         "observing",

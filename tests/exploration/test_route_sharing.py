@@ -1,5 +1,6 @@
 """Routes visit every place once, cannot be bettered by a move, and robots keep them."""
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 
 from topomap.errors import InputError
 from topomap.exploration import Details, Settings, explore_grid, routes
-from topomap.exploration.grid_worlds import office
+from topomap.exploration.grid_worlds import office, stable
 from topomap.exploration.starts import central_starts
 
 
@@ -163,8 +164,24 @@ def test_two_robots_explore_an_office_without_swinging():
 
 
 @pytest.mark.parametrize(
-    ("name", "value"), [("pace", 0), ("keep", -1), ("part", float("nan"))]
+    ("name", "value"),
+    [("pace", 0), ("keep", -1), ("part", float("nan")), ("fade", 0), ("fade", 1.5)],
 )
 def test_weights_that_cannot_be_are_refused(name, value):
-    with pytest.raises(InputError, match=f"{name}: expected a finite number"):
+    with pytest.raises(InputError, match=f"{name}: expected a .*number"):
         routes(np.ones((1, 1)), Details(), **{name: value})
+
+
+def test_rock_behind_stalls_counts_less_with_depth():
+    """Before a row of stalls, MinPos's own world, faded routes are as fast as MinPos."""
+    free, starts = stable(8)
+    time = {
+        name: explore_grid(free, starts, Settings(choice, reach=20, limit=500)).time
+        for name, choice in {
+            "fade": partial(routes, fade=0.7),
+            "minpos": "minpos",
+            "routes": "routes",
+        }.items()
+    }
+    assert time["fade"] <= 1.02 * time["minpos"]
+    assert time["routes"] > 1.1 * time["minpos"]

@@ -22,6 +22,7 @@ from topomap.exploration import (
 from topomap.exploration.asynchronous import Periods, explore_asynchronously
 from topomap.exploration.building_worlds import campus, hospital
 from topomap.exploration.grid_worlds import maze, office, stable, streets
+from topomap.exploration.hindsight import hindsight
 from topomap.exploration.studies import tree_bound
 
 if TYPE_CHECKING:
@@ -29,10 +30,18 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["EXPERIMENTS", "explore_trees", "explore_worlds", "search_weights"]
+__all__ = [
+    "EXPERIMENTS",
+    "compare_hindsight",
+    "explore_trees",
+    "explore_worlds",
+    "search_weights",
+]
 
 NAMES = ("mindist", "greedy", "utility", "hungarian", "minpos", "mpg", "routes")
 """The allocators compared; all explore each world from the same starts."""
+INFORMED = ("least", "planned", "minpos", "routes")
+"""What is compared with a team that knows the map."""
 BY_WAVES = ("mindist", "greedy", "minpos", "mpg")
 """Those of figures 5.9 and 5.12, compared where robots decide one by one."""
 WEIGHTS = {
@@ -86,6 +95,20 @@ def explore_trees(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
     return dict(total)
 
 
+def compare_hindsight(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
+    """Let two allocators explore; sum their times, a bound, and a plan's time.
+
+    The plan is that of a team that knows the map: see `hindsight`.
+    """
+    total: dict[str, float] = defaultdict(float)
+    for _ in range(trials):
+        free, starts = _world(str(cell["world"]), int(cell["robots"]), rng)
+        known = hindsight(free, starts, reach=8)
+        _add(total, {name: _time(cell, name, free, starts) for name in INFORMED[2:]})
+        _add(total, {"least": known.least, "planned": known.planned})
+    return dict(total)
+
+
 def search_weights(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
     """Let `weighted` explore the same random worlds with each of its `WEIGHTS`."""
     total: dict[str, float] = defaultdict(float)
@@ -109,7 +132,7 @@ def _add(total: dict[str, float], times: Mapping[str, float]) -> None:
     """Add the times of one world, and who was faster in it."""
     for name, time in times.items():
         total[name] += time
-    if "minpos" in times:
+    if "mindist" in times:
         total["minpos beats mindist"] += times["minpos"] < times["mindist"]
         total["minpos beats greedy"] += times["minpos"] < times["greedy"]
 
@@ -196,6 +219,15 @@ EXPERIMENTS = (
         "robots",
         explore_trees,
         ("bound", *NAMES),
+    ),
+    _experiment(
+        "hindsight",
+        "How much faster could a team be that knows the map?",
+        (*_teams("maze", 2, 3, 5, 10), *_teams("office", 2, 3, 5, 10)),
+        "robots",
+        compare_hindsight,
+        INFORMED,
+        (),
     ),
     _experiment(
         "weights",
