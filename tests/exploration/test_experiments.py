@@ -9,7 +9,7 @@ import typer
 from typer.testing import CliRunner
 
 from topomap.errors import InputError
-from topomap.experiments import exploring
+from topomap.experiments import exploring_batches as exploring
 from topomap.experiments.catalogue import find
 from topomap.experiments.experiment import run_task, tasks_of
 from topomap.experiments.ratios import average_ratio, main, ratio_table, read_times

@@ -173,15 +173,12 @@ def test_weights_that_cannot_be_are_refused(name, value):
 
 
 def test_rock_behind_stalls_counts_less_with_depth():
-    """Before a row of stalls, MinPos's own world, faded routes are as fast as MinPos."""
     free, starts = stable(8)
-    time = {
-        name: explore_grid(free, starts, Settings(choice, reach=20, limit=500)).time
-        for name, choice in {
-            "fade": partial(routes, fade=0.7),
-            "minpos": "minpos",
-            "routes": "routes",
-        }.items()
-    }
-    assert time["fade"] <= 1.02 * time["minpos"]
-    assert time["routes"] > 1.1 * time["minpos"]
+    times = [
+        explore_grid(
+            free, starts + [0, off], Settings(choice, reach=20, limit=500)
+        ).time
+        for choice in (partial(routes, fade=0.7), "routes")
+        for off in (-1, 0, 1)
+    ]
+    assert sum(times[:3]) < 0.9 * sum(times[3:])
