@@ -72,6 +72,7 @@ def test_worlds_of_experiments_are_closed_and_in_one_piece(kind):
         "streets",
         "stable",
         "trees",
+        "crowds",
         "hindsight",
         "weights",
         "groups",

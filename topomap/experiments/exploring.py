@@ -39,26 +39,32 @@ def _teams(world: str, *robots: int) -> tuple[Cell, ...]:
 EXPERIMENTS = (
     _experiment(
         "mazes",
-        "How long do 1 to 30 robots explore a maze, by allocator?",
-        _teams("maze", 2, 3, 5, 10, 1, 30),
+        "How long do 1 to 10 robots explore a maze, by allocator?",
+        _teams("maze", 2, 3, 5, 10, 1),
         "robots",
     ),
     _experiment(
         "offices",
         "How long do robots explore an office floor, by allocator?",
-        _teams("office", 2, 3, 5, 10, 1, 30),
+        _teams("office", 2, 3, 5, 10, 1),
         "robots",
     ),
     _experiment(
         "hospitals",
         "How long do robots explore a wing of a hospital, by allocator?",
-        _teams("hospital", 2, 5, 10, 30),
+        _teams("hospital", 2, 5, 10),
         "robots",
     ),
     _experiment(
         "streets",
         "How long do robots explore streets between uneven blocks, by allocator?",
-        _teams("streets", 2, 5, 10, 30),
+        _teams("streets", 2, 5, 10),
+        "robots",
+    ),
+    _experiment(
+        "crowds",
+        "Do allocators differ when there are 20 or 30 robots?",
+        (*_teams("maze", 20, 30), *_teams("office", 20, 30)),
         "robots",
     ),
     _experiment(
