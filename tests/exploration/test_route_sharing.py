@@ -174,10 +174,11 @@ def test_weights_that_cannot_be_are_refused(name, value):
 
 def test_rock_behind_stalls_counts_less_with_depth():
     free, starts = stable(8)
+    aside = np.array([0, 1])
     totals = [
         sum(
             explore_grid(free, shifted, Settings(choice, reach=20, limit=500)).time
-            for shifted in (starts - [[0, 1]], starts, starts + [[0, 1]])
+            for shifted in (starts - aside, starts, starts + aside)
         )
         for choice in (partial(routes, fade=0.7), "routes")
     ]

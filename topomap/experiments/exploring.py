@@ -88,7 +88,7 @@ EXPERIMENTS = (
         "robots",
         compare_hindsight,
         INFORMED,
-        (),
+        ("routes beats minpos",),
     ),
     _experiment(
         "weights",

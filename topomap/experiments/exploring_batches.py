@@ -109,7 +109,9 @@ def compare_hindsight(cell: Cell, rng: np.random.Generator, trials: int) -> Tall
     for _ in range(trials):
         free, starts = _world(str(cell["world"]), int(cell["robots"]), rng)
         known = hindsight(free, starts, reach=8)
-        _add(total, {name: _time(cell, name, free, starts) for name in INFORMED[2:]})
+        times = {name: _time(cell, name, free, starts) for name in INFORMED[2:]}
+        _add(total, times)
+        total["routes beats minpos"] += times["routes"] < times["minpos"]
         _add(total, {"least": known.least, "planned": known.planned})
     return dict(total)
 
