@@ -103,7 +103,12 @@ def test_ratios_are_read_from_the_file_of_a_run(tmp_path):
     assert f"{ratio:.3f} [" in lines[2]
     app = typer.Typer()
     app.command()(main)
-    shown = CliRunner().invoke(app, [str(path), "greedy", "--seed", "5"]).output
+    picture = tmp_path / "ratios.svg"
+    words = [str(path), "greedy", "--seed", "5", "--plot", str(picture)]
+    shown = CliRunner().invoke(app, words).output
+    drawn = picture.read_text()
+    assert "time by that of greedy" in drawn
+    assert "robots, stable" in drawn
     assert shown.startswith("\n".join(lines))
     assert "routes by the best of the others" in shown
     with pytest.raises(InputError, match="seed: expected a file with runs of this"):

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from topomap.errors import InputError
 from topomap.exploration import Details, Settings, explore_grid, routes
-from topomap.exploration.grid_worlds import office, stable
+from topomap.exploration.grid_worlds import maze, office, stable
 from topomap.exploration.starts import central_starts
 
 
@@ -183,3 +183,21 @@ def test_rock_behind_stalls_counts_less_with_depth():
         for choice in (partial(routes, fade=0.7), "routes")
     ]
     assert totals[0] < 0.9 * totals[1]
+
+
+def test_without_news_all_keep_to_their_frontiers():
+    costs = np.array([[1.0, 9.0, np.inf], [np.inf, 9.0, 1.0], [np.inf, np.inf, np.inf]])
+    previous = np.array([1, 1, -1])
+    free = [0, 2, -1]
+    assert routes(costs, Details(previous=previous, news=3)).tolist() == free
+    assert routes(costs, Details(previous=previous, news=0)).tolist() == [1, 1, -1]
+    gone = np.array([2, 1, -1])  # the first robot cannot reach it any more
+    assert routes(costs, Details(previous=gone, news=0)).tolist() == free
+    arrived = np.array([-1, 1, -1])
+    assert routes(costs, Details(previous=arrived, news=0)).tolist() == free
+
+
+def test_one_robot_does_not_swing_between_two_plans():
+    free = maze(rng := np.random.default_rng([0, 748229577, 0]), 57)
+    starts = central_starts(free, 1, rng)
+    assert explore_grid(free, starts, Settings("routes", reach=8, limit=1200)).complete

@@ -48,7 +48,9 @@ def routes(
     costs : ndarray, shape (n, m)
         From robot i to frontier j, in cells; `inf` where there is no way.
     details : Details
-        `between`, `beyond`, `reach` and `previous` are used. Without `between`,
+        `between`, `beyond`, `reach`, `previous` and `news` are used. If there are
+        no news, all keep to the frontiers they were on their way to, so that
+        nobody swings between plans that are equally good. Without `between`,
         frontiers are as far apart as the costs show at least; without `beyond`,
         nothing counts as behind them.
     pace : float
@@ -111,6 +113,12 @@ def routes(
     chosen = np.full(len(costs), -1, dtype=np.int64)
     if not len(goals):
         return chosen
+    if details.previous is not None and details.news == 0:
+        kept = np.asarray(details.previous)
+        able = reachable.any(axis=1)
+        if (reachable[np.arange(len(costs)), kept] & (kept >= 0))[able].all():
+            chosen[able] = kept[able]
+            return chosen
     ways = costs[:, goals]
     ways = np.where(
         np.isfinite(ways), ways, NO_WAY * (ways[np.isfinite(ways)].max() + 1.0)
