@@ -198,6 +198,8 @@ def test_without_news_all_keep_to_their_frontiers():
 
 
 def test_one_robot_does_not_swing_between_two_plans():
-    free = maze(rng := np.random.default_rng([0, 748229577, 0]), 57)
+    # Planned anew at every step, the plan flips between two cells of this maze.
+    rng = np.random.default_rng([0, 1933225767, 386405042, 1])
+    free = maze(rng)
     starts = central_starts(free, 1, rng)
-    assert explore_grid(free, starts, Settings("routes", reach=8, limit=1200)).complete
+    assert explore_grid(free, starts, Settings("routes", reach=8, limit=1000)).complete
