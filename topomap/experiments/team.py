@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from topomap.team.result import TeamRun
     from worlds.world import World
 
-__all__ = ["EXPERIMENTS", "explore_buildings"]
+__all__ = ["EXPERIMENTS", "LIMIT", "MEANS", "SHARES", "explore_buildings", "tally"]
 
 MIXED = ("rooms", "office", "hospital")
 """The kinds of building among which ``mixed`` draws."""
@@ -58,7 +58,7 @@ def explore_buildings(cell: Cell, rng: np.random.Generator, trials: int) -> Tall
             faults=_faults(cell, robots, rng),
             limit=LIMIT,
         )
-        total.update(_tally(run))
+        total.update(tally(run))
     return dict(total)
 
 
@@ -88,7 +88,7 @@ def _faults(cell: Cell, robots: int, rng: np.random.Generator) -> tuple[Fault, .
     return (Fault(int(rng.integers(robots)), **time),)
 
 
-def _tally(run: TeamRun) -> Tallies:
+def tally(run: TeamRun) -> Tallies:
     """Return what came of one run, as sums of one trial."""
     working = [robot for robot in run.robots if not robot.lost]
     chart = run.merged[0].map if run.merged else None
