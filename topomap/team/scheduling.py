@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
 from topomap.exploring import RefutedError
-from topomap.team.agent import Agent, explore_with_others
+from topomap.team.agent import Agent
+from topomap.team.mission import explore_with_others
 from topomap.team.tasks import Task, Wait
 from worlds.crew_body import CrewBody
 
