@@ -110,6 +110,15 @@ class CrewBody(PhysicalBody):
                 return mate.bearing
         return None
 
+    def lift(self) -> None:
+        """Take the robot off the floor: nobody meets it, and it does nothing."""
+        self.halt()
+        self.arena.lift(self._simulated.disc)
+
+    def lower(self) -> bool:
+        """Put it back on the floor; return whether there was room."""
+        return self.arena.lower(self._simulated.disc)
+
     def begin(self, primitive: Primitive) -> None:
         """Take up a primitive, to be carried out by `step` or by `poll`."""
         super().begin(primitive)
