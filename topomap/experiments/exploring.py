@@ -28,7 +28,7 @@ def _experiment(
 ) -> Experiment:
     # A batch is one world, so that the file of tallies has every time.
     return Experiment(
-        f"exploring-{name}", question, cells, batch, 60, 1, shares, means, x
+        f"exploring-{name}", question, cells, batch, 60, 1, shares, means, x=x
     )
 
 
