@@ -13,11 +13,12 @@ from merge.fleet import Fleet, Group, merge_fleet
 from merge.graph import Graph
 from merge.options import Options
 from merge.rigid import RigidTransform
+from topomap.directions import same_direction
 from topomap.embedding import EXACT
 from topomap.errors import InputError
 from topomap.joined_map import map_of_group
 from topomap.parts import base_map
-from topomap.topological_map import TopologicalMap, Vertex, same_direction
+from topomap.topological_map import TopologicalMap, Vertex
 
 __all__ = ["Merge", "merge_maps", "to_graph"]
 
