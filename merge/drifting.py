@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from merge.chance import by_luck
 from merge.clustering import transform_groups
 from merge.rigid import RigidTransform
 
@@ -30,13 +31,16 @@ def hold_together(
     others: Sequence[Cluster],
     layouts: tuple[Layout, Layout],
     places: tuple[NDArray[np.float64], NDArray[np.float64]],
+    least: float,
 ) -> tuple[Cluster, tuple[Cluster, ...]]:
     """Join to an overlay the others that hold as well if it does.
 
     Two robots that went round a building from different sides share two parts of it.
     Each part lays the maps on each other, a little differently, since lengths add up
     to drift on the way between the parts. Overlays that match other vertices, and
-    differ by no more than that, are no rivals.
+    differ by no more than that, are no rivals. They are joined where they would be
+    relied on alone, and no rival of their own matches their vertices about as well:
+    the next of a row of equal rooms lies no further off than drift may bring it.
 
     Parameters
     ----------
@@ -48,6 +52,8 @@ def hold_together(
         The maps.
     places : pair of ndarray, shapes (V_A, 2) and (V_B, 2)
         Their vertices, in metres.
+    least : float
+        Score, with the log of how many pairs it has, that an overlay needs alone.
 
     Returns
     -------
@@ -66,7 +72,9 @@ def hold_together(
         from_best = at_a[best.pairs[:, 0]] - target.mean(axis=0)
         away = math.sqrt(float((from_best**2).sum(axis=1).max()))
         near = math.hypot(*off) <= DEVIATIONS * math.sqrt(spread * away)
-        if near and used[0].isdisjoint(new[0]) and used[1].isdisjoint(new[1]):
+        sure = other.score + math.log(len(other.pairs)) >= least
+        apart = used[0].isdisjoint(new[0]) and used[1].isdisjoint(new[1])
+        if near and sure and apart and not any(_vie(other, more) for more in others):
             joined.append(other)
             used = [one | two for one, two in zip(used, new, strict=True)]
         else:
@@ -86,6 +94,13 @@ def hold_together(
         residual=float(((move(p) - q) ** 2).sum()),
     )
     return whole, tuple(rivals)
+
+
+def _vie(one: Cluster, other: Cluster) -> bool:
+    """Tell whether an overlay matches some of another's vertices about as well."""
+    if other is one or other.score + by_luck(len(other.pairs)) < one.score:
+        return False
+    return any(np.isin(one.pairs[:, k], other.pairs[:, k]).any() for k in (0, 1))
 
 
 def drift(layout: Layout) -> float:

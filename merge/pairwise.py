@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -121,7 +122,8 @@ def decide(
     overlays = find_overlays(hypotheses, at_a, at_b, options.reach * edge)
     overlays.sort(key=lambda c: (-c.score, c.residual, c.members))
     best = overlays[0]
-    whole, others = hold_together(best, overlays[1:], layouts, places)
+    least = math.log(max(hypotheses.ways, 1.0) / options.false_merge)
+    whole, others = hold_together(best, overlays[1:], layouts, places, least)
     # Of the ways to lay a vertex on another, each overlay is one for each of its pairs.
     trials = max(hypotheses.ways / len(best.pairs), 1.0)
     rivals = [

@@ -1,6 +1,7 @@
 """Two shared parts with drift between them are one overlay, rivals stay rivals."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -41,8 +42,23 @@ def test_only_what_drift_explains_and_nothing_contradicts_is_joined(
     graph = line(14, sigma)
     layout, at = lay_out(graph), embed(graph)
     best = overlay([(0, 0), (1, 1), (2, 2)])
-    whole, rivals = hold_together(best, [overlay(other)], (layout, layout), (at, at))
+    maps = (layout, layout), (at, at)
+    whole, rivals = hold_together(best, [overlay(other)], *maps, 9.0)
     assert (len(rivals) == 0) is together
     assert len(whole.pairs) == (5 if together else 3)
     assert whole.score == best.score
     assert drift(layout) == pytest.approx(sigma**2)
+
+
+def test_what_is_weak_or_has_a_rival_of_its_own_is_not_joined():
+    graph = line(14, 0.1)
+    layout, at = lay_out(graph), embed(graph)
+    maps = (layout, layout), (at, at)
+    best, other = overlay([(0, 0), (1, 1), (2, 2)]), overlay([(9, 9), (10, 10)])
+    assert hold_together(best, [other], *maps, 9.6)[0].pairs.shape == (5, 2)
+    assert hold_together(best, [other], *maps, 9.8) == (best, (other,))
+    shifted = overlay([(9, 10), (10, 11)])
+    assert hold_together(best, [other, shifted], *maps, 9.0)[0] is best
+    worse = replace(shifted, score=1.0)
+    whole, rivals = hold_together(best, [other, worse], *maps, 9.0)
+    assert (len(whole.pairs), rivals) == (5, (worse,))
