@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from merge.chance import by_luck, false_merge_probability
+from merge.drifting import hold_together
 from merge.embedding import embed
 from merge.hypotheses import Hypotheses, grow_hypotheses
 from merge.layout import lay_out
@@ -119,7 +121,9 @@ def decide(
     edge = float(np.concatenate([a.lengths, b.lengths]).mean())
     overlays = find_overlays(hypotheses, at_a, at_b, options.reach * edge)
     overlays.sort(key=lambda c: (-c.score, c.residual, c.members))
-    best, others = overlays[0], tuple(overlays[1:])
+    best = overlays[0]
+    least = math.log(max(hypotheses.ways, 1.0) / options.false_merge)
+    whole, others = hold_together(best, overlays[1:], layouts, places, least)
     # Of the ways to lay a vertex on another, each overlay is one for each of its pairs.
     trials = max(hypotheses.ways / len(best.pairs), 1.0)
     rivals = [
@@ -130,8 +134,8 @@ def decide(
     wrong = doubt + options.twins * (1.0 - doubt)
     if wrong > options.false_merge:
         reason = _why(best, others, (doubt, wrong), trials, options)
-        return Match(False, reason, wrong, best, others, hypotheses, at_a, at_b)
-    verified = verify(*layouts, at_a, at_b, best, options)
+        return Match(False, reason, wrong, whole, others, hypotheses, at_a, at_b)
+    verified = verify(*layouts, at_a, at_b, whole, options)
     copies = [
         find_copies(layout, best.pairs[:, side], options)
         for side, layout in enumerate(layouts)

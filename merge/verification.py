@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from merge.clustering import transform_groups
+from merge.drifting import DEVIATIONS, drift
 from merge.nearest import nearest
 from merge.rigid import RigidTransform
 
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Verified", "verify"]
 
-DEVIATIONS = 3.0
-"""How far off its predicted place a partner may lie, in standard deviations."""
 ALONE, SURELY_ALONE = 3.0, 8.0
 """How many times that the next vertex must be off, for a partner and for a clash."""
 ROUNDS = 8
@@ -109,7 +108,7 @@ def _look(
     c, s = math.cos(turn), math.sin(turn)
     step = (at_a[loose] - at_a[pairs[k, 0]]) @ np.array([[c, -s], [s, c]])
     place = at_b[pairs[k, 1]] + step
-    spread = DEVIATIONS * np.sqrt(2 * away * (_drift(a) + _drift(b)))
+    spread = DEVIATIONS * np.sqrt(2 * away * (drift(a) + drift(b)))
     distance, two = nearest(at_b, place, 2)
     # Only where no second vertex can be meant.
     sure = (distance[:, 0] <= spread) & (distance[:, 1] > ALONE * spread)
@@ -127,12 +126,6 @@ def _look(
             clashes.append((u, w))
     rows = [np.array(found, np.int64).reshape(-1, 2) for found in (matched, clashes)]
     return rows[0], rows[1]
-
-
-def _drift(layout: Layout) -> float:
-    """Return the variance that a metre of way adds, in metres."""
-    seen = layout.twin >= 0
-    return float(layout.variance[seen].sum() / max(layout.length[seen].sum(), 1e-9))
 
 
 def _alike(a: Layout, u: int, b: Layout, w: int, turn: float, options: Options) -> bool:

@@ -92,7 +92,7 @@ def draw_overlay(found: Merge, maps: Sequence[TopologicalMap], ax: Axes) -> Axes
         _draw_residuals(ax, laid, only)
     wrong = found.false_merge_probability
     title = "accepted" if found.accepted else "refused"
-    _finish(ax, f"{title}: wrong with probability {wrong:.2g}")
+    _finish(ax, f"{title}: wrong with probability at most {wrong:.2g}")
     return ax
 
 

@@ -81,7 +81,7 @@ def by_pygmtools(pygm, a, b):
     return pairs[rows][near]
 
 
-@pytest.mark.parametrize("overlap", [-1.0, 0.3, 0.45, 0.6])
+@pytest.mark.parametrize("overlap", [-1.0, 0.1, 0.2, 0.3, 0.45, 0.6])
 def test_same_pairs_by_pygmtools_and_by_us(overlap):
     pygm = pytest.importorskip("pygmtools")
     pygm.set_backend("numpy")

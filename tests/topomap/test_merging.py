@@ -41,6 +41,19 @@ def test_two_halves_of_a_world_become_its_map(seed):
     assert all(v.covariance is not None for v in found.map.vertices)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_maps_that_share_both_ends_of_a_way_round_close_it(seed):
+    rng = np.random.default_rng(seed)
+    chart = truth(seed)
+    ids = [v.id for v in chart.vertices]
+    size = int(0.7 * len(ids))
+    one = part(chart, ids[0], size, 0.0, 0.05, rng)
+    other = part(chart, ids[len(ids) // 2], size, 1.0, 0.05, rng)
+    found = merge_maps([one, other])
+    assert found.accepted
+    assert compare_maps(found.map, chart).correct
+
+
 def test_shared_edges_keep_the_measurements_of_both_robots():
     chart = truth(1)
     rng = np.random.default_rng(0)
