@@ -20,6 +20,7 @@ from evidence.walls import Decision, LoopCloser, Wall
 from topomap.boundary import Walk
 from topomap.chart import Chart, Place, behaviour_of
 from topomap.errors import JobError
+from topomap.loop_entry import find_entry
 from topomap.recognition import Recognition, recognise
 
 if TYPE_CHECKING:
@@ -348,11 +349,15 @@ def close_loop(found: Exploration) -> Behaviour[bool]:
     found.closed = period is not None
     legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
     start = decisions[-1].start if period and decisions else 0
-    if start:
+    entry: int | None = 0
+    if start and period:
+        entry = find_entry(places, arrivals, start, period, found.sigma)
+    if entry is None:
         _begin_anew(found, places[start])
     found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
-    _fold(found, places[start:], arrivals[start:], period or len(places))
-    if start:
+    first = start if entry is None else entry
+    _fold(found, places[first:], arrivals[first:], period or len(places))
+    if entry is None:
         found.refuted.append(decisions[-1].reason)
         raise RefutedError(decisions[-1].reason)
     return found.closed

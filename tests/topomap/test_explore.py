@@ -325,21 +325,42 @@ def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, sl
     assert built.map.unexplored_exits == 0
 
 
-def test_a_loop_that_begins_later_begins_the_map_anew():
-    class Late(Hasty):
-        laps = 4
+class Late(Hasty):
+    """A loop closer that says of one loop that it begins at v_3."""
 
-        def observe(self, wall):
-            decision = self.closer.observe(wall)
-            if decision.period and self.laps > 0:
-                self.laps -= 1
-                if self.laps == 0:
-                    return replace(decision, start=3, reason="it slipped")
-                return replace(decision, period=None)
-            return decision
+    def __init__(self, loop):
+        super().__init__(None)
+        self.loop = loop
 
+    def begin(self, kind, turn):
+        super().begin(kind, turn)
+        self.loop -= 1
+        self.laps = 4 if self.loop == 0 else 0
+
+    def observe(self, wall):
+        decision = self.closer.observe(wall)
+        if decision.period and self.laps > 0:
+            self.laps -= 1
+            if self.laps == 0:
+                return replace(decision, start=3, reason="it slipped")
+            return replace(decision, period=None)
+        return decision
+
+
+@pytest.mark.parametrize("loop", [1, 2, 3])
+def test_a_loop_that_begins_later_is_joined_where_the_robot_came_to_it(loop):
     built = build_map(
-        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Late(None)
+        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Late(loop)
+    )
+    assert built.refuted == ()
+    assert built.correct
+
+
+@pytest.mark.parametrize("loop", [1, 2])
+def test_where_that_cannot_be_told_the_map_is_begun_anew(monkeypatch, loop):
+    monkeypatch.setattr(exploring, "find_entry", lambda *_: None)
+    built = build_map(
+        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Late(loop)
     )
     assert built.refuted == ("it slipped",)
     assert built.correct
