@@ -355,8 +355,8 @@ def close_loop(found: Exploration) -> Behaviour[bool]:
     if entry is None:
         _begin_anew(found, places[start])
     found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
-    first = start if entry is None else entry
-    _fold(found, places[first:], arrivals[first:], period or len(places))
+    at = 0 if entry is None else entry - start
+    _fold(found, places[start:], arrivals[start:], period or len(places), at)
     if entry is None:
         found.refuted.append(decisions[-1].reason)
         raise RefutedError(decisions[-1].reason)
@@ -393,15 +393,22 @@ def _fold(
     places: list[Place],
     arrivals: list[Arrival],
     period: int,
+    at: int,
 ) -> None:
-    """Put the walls of a loop into the map, each once with all its lengths."""
+    """Put the walls of a loop into the map, each once with all its lengths.
+
+    The vertex `at` of the loop is in the map, and is the one where the robot was.
+    """
     chart = found.chart
     likeliest = [
         Counter(places[k::period]).most_common(1)[0][0]
         for k in range(min(period, len(places)))
     ]
-    chart.places[found.here] = likeliest[0]
-    numbers = [found.here, *map(chart.add_place, likeliest[1:])]
+    chart.places[found.here] = likeliest[at]
+    numbers = [
+        found.here if k == at else chart.add_place(place)
+        for k, place in enumerate(likeliest)
+    ]
     for k, arrival in enumerate(arrivals):
         quarters = likeliest[k % period].ways.index(Way.WALL_RIGHT)
         end = numbers[k % period], quarters

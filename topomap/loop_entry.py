@@ -42,7 +42,7 @@ def find_entry(
     start : int
         The loop is made of the walls from v_start on; there is a slip before.
     period : int
-        How many walls the loop has; at least twice as many lie after v_start.
+        How many walls the loop has; at least as many lie after v_start.
     sigma : float
         Standard deviation of a measured length, as a part of the length.
 
