@@ -102,6 +102,8 @@ def build(
     from topomap.mapping import build_map
 
     if replay is not None:
+        if improve != "none":
+            raise InputError("--improve", "", improve, "none: the log tells it")
         from topomap.cli.replay import make_again
 
         options = {"closing": closing, "sigma": sigma, "max_walls": max_walls}
@@ -113,9 +115,6 @@ def build(
             raise InputError(f"--{name}", "", value, "--replay with it")
     if world is None:
         raise InputError("WORLD", "", None, "a world file, or --replay")
-    if log is not None and improve != "none":
-        expected = "--improve none: a log holds the walk along walls and halls alone"
-        raise InputError("--log", "", str(log), expected)
     sigma = 0.06 if sigma is None else sigma
     closing = closing or "likelihood"
     max_walls = MAX_WALLS if max_walls is None else max_walls
@@ -131,12 +130,12 @@ def build(
         check_page(page)
     lengths, slip = body_parameters(body), body_slip(body)
     about = {"body": body, "sigma": sigma, "seed": seed, "closing": closing}
-    told = {**about, "slip": slip, "max_walls": max_walls}
+    about |= {"slip": slip, "max_walls": max_walls, "improve": improve}
     onlooker = None if page is None else _onlooker(place, sigma, body)
     began = time.perf_counter()
     with (
         naming(world),
-        _logged(log, place, told) as recorder,
+        _logged(log, place, about) as recorder,
         watched(make_closer(closing, sigma, lengths, slip=slip)) as closer,
     ):
         lookers = [looker for looker in (onlooker, recorder) if looker is not None]
@@ -219,11 +218,11 @@ def _logged(
     if log is None:
         return nullcontext()
     from topomap.bodies import body_parameters
+    from topomap.logs.building import about_run
     from topomap.logs.recording import recording
-    from worlds.fit import is_open
 
-    halls = not is_open(world, body_parameters(about["body"]))
-    return recording(log, {**about, "halls": halls})
+    told = about_run(world, body_parameters(about["body"]), **about)
+    return recording(log, told)
 
 
 def _watched_by(robot: Body, looker: BuildRecorder | Recording) -> Body:

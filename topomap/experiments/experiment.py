@@ -53,7 +53,9 @@ class Experiment:
     shares: tuple[str, ...]
     """Tallies that are shares of the trials, shown with Wilson intervals."""
     means: tuple[str, ...] = ()
-    """Tallies shown as means over the trials."""
+    """Tallies shown as means over the trials, or over those that `over` counts."""
+    over: str = "trials"
+    """The tally of the trials that came to what `means` measures."""
     x: str = ""
     """The condition along the plot's axis; the others tell its lines apart."""
     paired: tuple[str, ...] = ()

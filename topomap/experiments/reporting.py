@@ -100,7 +100,8 @@ def table(experiment: Experiment, cells: Mapping[int, Tallies]) -> str:
         row = [str(experiment.cells[cell][name]) for name in conditions]
         row.append(f"{trials:.0f}")
         row += [_share(tallies.get(name, 0.0), trials) for name in experiment.shares]
-        row += [f"{tallies.get(name, 0.0) / trials:.4g}" for name in experiment.means]
+        over = tallies.get(experiment.over, 0.0)
+        row += [_mean(tallies.get(name, 0.0), over) for name in experiment.means]
         row += [f"{median_of(name, tallies):.2f}" for name in experiment.medians]
         row += [f"{tallies.get(name, 0.0):.0f}" for name in others]
         lines.append(_line(row))
@@ -109,6 +110,10 @@ def table(experiment: Experiment, cells: Mapping[int, Tallies]) -> str:
 
 def _line(cells: Iterable[str]) -> str:
     return "| " + " | ".join(cells) + " |"
+
+
+def _mean(total: float, over: float) -> str:
+    return f"{total / over:.4g}" if over else "-"
 
 
 def _share(hits: float, trials: float) -> str:
