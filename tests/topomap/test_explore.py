@@ -309,7 +309,6 @@ def test_a_closure_that_does_not_fit_the_place_is_not_acted_on(period):
     assert built.refuted == ()
 
 
-@pytest.mark.parametrize("slips_at", [25, 29, 31])
 class Bumping:
     """A body that now and then touches something on its way, and draws back."""
 
@@ -371,6 +370,7 @@ def test_a_robot_that_is_stuck_while_it_looks_round_says_so():
         build_map(world, np.random.default_rng(0), watch=Stuck)
 
 
+@pytest.mark.parametrize("slips_at", [25, 29, 31])
 def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, slips_at):
     """One edge is measured 3 m too long; another walk along it tells."""
     walked = 0
