@@ -11,6 +11,7 @@ from behaviours.ways import Way
 from evidence.walls import Wall
 from topomap.boundary import Walk
 from topomap.explored import RefutedError
+from topomap.loop_entry import find_entry
 from topomap.walking import leave
 
 if TYPE_CHECKING:
@@ -53,11 +54,15 @@ def close_loop(found: Exploration) -> Behaviour[bool]:
     found.closed = period is not None
     legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
     start = decisions[-1].start if period and decisions else 0
-    if start:
+    entry: int | None = 0
+    if start and period:
+        entry = find_entry(places, arrivals, start, period, found.sigma)
+    if entry is None:
         found.begin_anew(places[start])
     found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
-    _fold(found, places[start:], arrivals[start:], period or len(places))
-    if start:
+    at = 0 if entry is None else entry - start
+    _fold(found, places[start:], arrivals[start:], period or len(places), at)
+    if entry is None:
         found.refuted.append(decisions[-1].reason)
         raise RefutedError(decisions[-1].reason)
     return found.closed
@@ -93,15 +98,22 @@ def _fold(
     places: list[Place],
     arrivals: list[Arrival],
     period: int,
+    at: int,
 ) -> None:
-    """Put the walls of a loop into the map, each once with all its lengths."""
+    """Put the walls of a loop into the map, each once with all its lengths.
+
+    The vertex `at` of the loop is in the map, and is the one where the robot was.
+    """
     chart = found.chart
     likeliest = [
         Counter(places[k::period]).most_common(1)[0][0]
         for k in range(min(period, len(places)))
     ]
-    chart.places[found.here] = likeliest[0]
-    numbers = [found.here, *map(chart.add_place, likeliest[1:])]
+    chart.places[found.here] = likeliest[at]
+    numbers = [
+        found.here if k == at else chart.add_place(place)
+        for k, place in enumerate(likeliest)
+    ]
     for k, arrival in enumerate(arrivals):
         quarters = likeliest[k % period].ways.index(Way.WALL_RIGHT)
         end = numbers[k % period], quarters

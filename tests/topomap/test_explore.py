@@ -17,7 +17,7 @@ from behaviours.probe import probe
 from behaviours.travel import travel
 from behaviours.vertices import VertexType
 from tests.worlds.hall_class import census
-from topomap import build_map, compare_maps, walking
+from topomap import base_loops, build_map, compare_maps, walking
 from topomap.closers import make_closer
 from topomap.errors import InputError, JobError
 from topomap.hall_loops import _without_straight
@@ -309,7 +309,6 @@ def test_a_closure_that_does_not_fit_the_place_is_not_acted_on(period):
     assert built.refuted == ()
 
 
-@pytest.mark.parametrize("slips_at", [25, 29, 31])
 class Bumping:
     """A body that now and then touches something on its way, and draws back."""
 
@@ -371,6 +370,7 @@ def test_a_robot_that_is_stuck_while_it_looks_round_says_so():
         build_map(world, np.random.default_rng(0), watch=Stuck)
 
 
+@pytest.mark.parametrize("slips_at", [25, 29, 31])
 def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, slips_at):
     """One edge is measured 3 m too long; another walk along it tells."""
     walked = 0
@@ -390,21 +390,42 @@ def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, sl
     assert built.map.unexplored_exits == 0
 
 
-def test_a_loop_that_begins_later_begins_the_map_anew():
-    class Late(Hasty):
-        laps = 4
+class Late(Hasty):
+    """A loop closer that says of one loop that it begins at v_3."""
 
-        def observe(self, wall):
-            decision = self.closer.observe(wall)
-            if decision.period and self.laps > 0:
-                self.laps -= 1
-                if self.laps == 0:
-                    return replace(decision, start=3, reason="it slipped")
-                return replace(decision, period=None)
-            return decision
+    def __init__(self, loop):
+        super().__init__(None)
+        self.loop = loop
 
+    def begin(self, kind, turn):
+        super().begin(kind, turn)
+        self.loop -= 1
+        self.laps = 4 if self.loop == 0 else 0
+
+    def observe(self, wall):
+        decision = self.closer.observe(wall)
+        if decision.period and self.laps > 0:
+            self.laps -= 1
+            if self.laps == 0:
+                return replace(decision, start=3, reason="it slipped")
+            return replace(decision, period=None)
+        return decision
+
+
+@pytest.mark.parametrize("loop", [1, 2, 3])
+def test_a_loop_that_begins_later_is_joined_where_the_robot_came_to_it(loop):
     built = build_map(
-        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Late(None)
+        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Late(loop)
+    )
+    assert built.refuted == ()
+    assert built.correct
+
+
+@pytest.mark.parametrize("loop", [1, 2])
+def test_where_that_cannot_be_told_the_map_is_begun_anew(monkeypatch, loop):
+    monkeypatch.setattr(base_loops, "find_entry", lambda *_: None)
+    built = build_map(
+        TWO_ROOMS, np.random.default_rng(1), sigma=0.0, closing=Late(loop)
     )
     assert built.refuted == ("it slipped",)
     assert built.correct
