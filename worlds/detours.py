@@ -6,7 +6,8 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from worlds.straight import NEAR, Control, pace, settle, stop
+from worlds.robot import NEAR
+from worlds.straight import Control, pace, settle, stop
 from worlds.turning import spin
 
 if TYPE_CHECKING:

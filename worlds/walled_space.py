@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any, Protocol
 
 import numpy as np
 import pymunk
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from worlds.arena import Disc
-
-__all__ = ["ROBOT", "WALL", "walled_space"]
+__all__ = ["ROBOT", "WALL", "Touching", "walled_space"]
 
 WALL, ROBOT = 1, 2
 """Kinds of shapes that collide."""
@@ -19,8 +17,17 @@ SLOP = 1e-3
 """Overlap, in metres, that the contacts leave unresolved."""
 
 
+class Touching(Protocol):
+    """What contacts are counted of: a robot's body."""
+
+    contacts: int
+    """How many contacts it has had."""
+    touching: int
+    """How many it has now."""
+
+
 def walled_space(
-    walls: NDArray[np.float64], disc_of: dict[pymunk.Shape, Disc]
+    walls: NDArray[np.float64], disc_of: Mapping[pymunk.Shape, Touching]
 ) -> pymunk.Space:
     """Return a space without gravity whose static segments are the walls.
 
@@ -28,7 +35,7 @@ def walled_space(
     ----------
     walls : array, shape (W, 4)
         Ends x0, y0, x1, y1 of each, in metres.
-    disc_of : dict of Shape to Disc
+    disc_of : mapping of Shape to Touching
         The robots by their shapes, which may be added later; their contacts are
         counted.
     """

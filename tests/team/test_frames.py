@@ -68,5 +68,7 @@ def test_a_team_with_a_common_frame_builds_the_whole_map(sigma):
 
 
 def test_an_unknown_frame_is_refused():
-    with pytest.raises(InputError, match="frame: expected one of own, common; got 'no'"):
+    with pytest.raises(
+        InputError, match="frame: expected one of own, common; got 'no'"
+    ):
         explore(building(), np.random.default_rng(5), frame="no")

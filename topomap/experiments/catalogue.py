@@ -17,6 +17,7 @@ MODULES = (
     "topomap.experiments.closing",
     "topomap.experiments.closing_classes",
     "topomap.experiments.exploring",
+    "topomap.experiments.floor_plan_halls",
     "topomap.experiments.floor_plans",
     "topomap.experiments.halls",
     "topomap.experiments.incursions",

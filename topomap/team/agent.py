@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from topomap.exploring import (
-    Exploration,
-    clear,
-)
+from topomap.explored import Exploration
 from topomap.headings import quarter_of
 from topomap.team.changes import Changes, caught_up
 from topomap.team.choosing import Choice, Costs, Mate, choose
@@ -18,9 +14,6 @@ from topomap.team.frontiers import way_lengths
 from topomap.team.messages import Beacon, MapChange, MapReport, decode, encode
 from topomap.team.sharing import Knowledge, learn, report_of
 from topomap.team.tasks import Event
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["BEAT", "MOST", "Agent"]
 
@@ -183,7 +176,7 @@ class Agent:
         """
         self.note("begins anew", reason)
         found, known = self.found, self.known
-        clear(found)
+        found.clear()
         known.robot += MOST
         known.names.clear()
         known.turns.clear()

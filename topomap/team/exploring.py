@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from topomap.bodies import body_parameters
+from topomap.bodies import body_parameters, body_slip
 from topomap.closers import make_closer
 from topomap.errors import InputError
 from topomap.exploration.registry import find_allocator
-from topomap.exploring import Exploration
+from topomap.explored import Exploration
 from topomap.found import MAX_SIGMA, MAX_WALLS
 from topomap.team.agent import MOST, Agent
 from topomap.team.channel import Channel, Radio
@@ -142,9 +142,8 @@ def explore(
     bodies, arena = place(body, world, starts, parameters, sigma, body_rng)
     for k, placed in enumerate(bodies):
         fault = fault_of.get(k, Fault(k))
-        found = Exploration(
-            parameters, make_closer(closing, sigma, parameters), sigma, MAX_WALLS
-        )
+        closer = make_closer(closing, sigma, parameters, slip=body_slip(body))
+        found = Exploration(parameters, closer, sigma, MAX_WALLS)
         agent = _agent(k, found, air, team, fault)
         agent.allocator, agent.returns = allocator, returns
         if frame == "common":

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
-from topomap.exploring import RefutedError, first_vertex, go, venture
+from topomap.explored import RefutedError
+from topomap.exploring import first_vertex, venture
 from topomap.headings import angle_of
 from topomap.team.agent import BEAT, Agent
 from topomap.team.choosing import Choice
 from topomap.team.tasks import Task, Wait
+from topomap.walking import go
 
 if TYPE_CHECKING:
     from behaviours.port import Behaviour, Outcome

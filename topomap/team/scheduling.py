@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
-from topomap.exploring import RefutedError
+from topomap.explored import RefutedError
 from topomap.team.agent import Agent
 from topomap.team.mission import explore_with_others
 from topomap.team.tasks import Task, Wait
