@@ -9,8 +9,9 @@ from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.embedding import embedded
 from topomap.exploring import explore_halls
+from topomap.team.meeting import chart_of
 from topomap.team.messages import decode, encode
-from topomap.team.sharing import Knowledge, chart_of, lay_over, learn, report_of
+from topomap.team.sharing import Knowledge, lay_over, learn, report_of
 from topomap.truth import true_maps
 from worlds.ideal import IdealBody
 from worlds.starts import choose_start

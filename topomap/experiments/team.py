@@ -36,8 +36,8 @@ def explore_buildings(cell: Cell, rng: np.random.Generator, trials: int) -> Tall
     """Let teams explore random buildings under the cell's conditions.
 
     Of a cell, ``world``, ``robots`` and ``sigma`` count, and if given ``body``,
-    ``allocator``, ``target``, ``range``, ``loss``, and ``fault``, one of ``dies``,
-    ``mute`` and ``comes``: it befalls one robot at a random time.
+    ``allocator``, ``target``, ``frame``, ``range``, ``loss``, and ``fault``, one of
+    ``dies``, ``mute`` and ``comes``: it befalls one robot at a random time.
     """
     total: Counter[str] = Counter()
     for _ in range(trials):
@@ -54,6 +54,7 @@ def explore_buildings(cell: Cell, rng: np.random.Generator, trials: int) -> Tall
             sigma=float(cell["sigma"]),
             allocator=str(cell.get("allocator", "minpos")),
             target=str(cell.get("target", "graph")),
+            frame=str(cell.get("frame", "own")),
             radio=radio,
             faults=_faults(cell, robots, rng),
             limit=LIMIT,
@@ -163,6 +164,12 @@ EXPERIMENTS = (
             )
         ),
         {"allocator": "minpos", "target": "grid"},
+    ),
+    _experiment(
+        "team-frames",
+        "What does it cost not to know where the others were set down?",
+        "frame",
+        *({"frame": frame} for frame in ("own", "common")),
     ),
     _experiment(
         "team-range",

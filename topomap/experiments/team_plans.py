@@ -12,7 +12,7 @@ from behaviours.parameters import Parameters
 from topomap.errors import InputError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.experiments.floor_plans import plan_folder
-from topomap.experiments.team import LIMIT, MEANS, SHARES, tally
+from topomap.experiments.team import MEANS, SHARES, tally
 from topomap.team.exploring import explore
 from topomap.truth import true_maps
 from worlds.errors import WorldError
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     import numpy as np
 
 __all__ = ["EXPERIMENTS", "explore_plan"]
+
+LIMIT = 3e4
+"""Simulated seconds after which a run is given up: some boundaries are 2 km long."""
 
 
 def explore_plan(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:

@@ -6,8 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from topomap.explored import Exploration
+from topomap.headings import quarter_of
 from topomap.team.changes import Changes, caught_up
 from topomap.team.choosing import Choice, Costs, Mate, choose
+from topomap.team.frames import Origin
 from topomap.team.frontiers import way_lengths
 from topomap.team.messages import Beacon, MapChange, MapReport, decode, encode
 from topomap.team.sharing import Knowledge, learn, report_of
@@ -35,6 +37,8 @@ class Agent:
     receive: Callable[[], list[bytes]]
     beset: Callable[[], float | None] = lambda: None
     """Bearing of a robot that waits for this one to go away, in radians."""
+    locate: Callable[[], tuple[float, float, float]] | None = None
+    """Where it is in a frame that all have: metres, and radians; None without one."""
     allocator: str = "minpos"
     costs: Costs = way_lengths
     returns: bool = False
@@ -124,6 +128,14 @@ class Agent:
                 self._refused[sender] = size
                 self.note("refuses", f"robot {sender}: {verdict.reason}", other=sender)
         self._renew_report()
+
+    def settle(self) -> None:
+        """Let all know where the map lies, if there is a frame for that."""
+        if self.locate is not None:
+            x, y, heading = self.locate()
+            turn = quarter_of(heading) - self.found.heading
+            origin = Origin(self.found.here, x, y, turn % 4)
+            self.known.origins[self.known.robot] = origin
 
     def choose(self) -> Choice:
         """Decide where to go next."""

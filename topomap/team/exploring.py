@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from topomap.bodies import body_parameters, body_slip
@@ -29,11 +30,14 @@ if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.parameters import Parameters
+    from topomap.team.frames import Origin
+    from worlds.ideal import IdealBody
     from worlds.pose import Pose
     from worlds.world import World
 
 __all__ = ["TARGETS", "explore"]
 
+FRAMES = ("own", "common")
 TARGETS = ("graph", "grid")
 """Whether distances are those of the map's edges, or of a grid laid under them."""
 LIMIT = 1e5
@@ -49,6 +53,7 @@ def explore(
     sigma: float = 0.06,
     allocator: str = "minpos",
     target: str = "graph",
+    frame: str = "own",
     radio: Radio | None = None,
     starts: Sequence[Pose] | None = None,
     faults: Sequence[Fault] = (),
@@ -80,6 +85,9 @@ def explore(
         Any of `topomap.exploration.allocators`.
     target : {"graph", "grid"}
         Distances by the edges of the map, or on a grid laid under it.
+    frame : {"own", "common"}
+        Whether every robot has a frame of its own, or all know where they were set
+        down, so that places that both met are told by where they lie.
     radio : Radio, optional
         How well robots hear each other; everywhere and always where None.
     starts : sequence of Pose, optional
@@ -118,6 +126,9 @@ def explore(
     (True, 2)
     """
     _check(robots, sigma, target, starts, faults, limit)
+    if frame not in FRAMES:
+        raise InputError("", "frame", frame, f"one of {', '.join(FRAMES)}")
+    origins: dict[int, Origin] = {}
     find_allocator(allocator)
     parameters = parameters or body_parameters(body)
     truth = true_maps(world, parameters)
@@ -135,6 +146,8 @@ def explore(
         found = Exploration(parameters, closer, sigma, MAX_WALLS)
         agent = _agent(k, found, air, team, fault)
         agent.allocator, agent.returns = allocator, returns
+        if frame == "common":
+            agent.known.origins, agent.locate = origins, partial(_pose, placed)
         if target == "grid":
             agent.costs = grid_lengths(parameters, sigma)
         if isinstance(placed, CrewBody):
@@ -186,6 +199,10 @@ def _check(
         if fault.robot in others or not 0 <= fault.robot < robots:
             expected = f"a robot from 0 to {robots - 1}, once"
             raise InputError("", f"faults[{k}].robot", fault.robot, expected)
+
+
+def _pose(body: IdealBody | CrewBody) -> tuple[float, float, float]:
+    return body.pose
 
 
 def _agent(

@@ -57,6 +57,7 @@ def _explore(agent: Agent) -> Task:
     """Explore, from where the robot stands, with nothing known."""
     found, chart = agent.found, agent.found.chart
     yield from _attentively(agent, first_vertex(found))
+    agent.settle()
     waited = 0.0
     while True:
         agent.hear()

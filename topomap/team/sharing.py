@@ -7,25 +7,20 @@ are merged as those of strangers are, or are refused until they have grown.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from merge.options import Options
-from merge.pairwise import match
 from topomap.chart import Chart
-from topomap.merging import to_graph
+from topomap.team.frames import Origin
 from topomap.team.laying import grow, insert, measure_once, remove
+from topomap.team.meeting import meet
 from topomap.team.messages import LinkRow, MapReport, Name, PlaceRow
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from behaviours.ways import Ways
 
-__all__ = ["Knowledge", "Verdict", "chart_of", "lay_over", "learn", "report_of"]
-
-LEAST = 4
-"""A map of fewer vertices is not yet compared with a stranger's."""
+__all__ = ["Knowledge", "Verdict", "lay_over", "learn", "report_of"]
 
 
 @dataclass(slots=True)
@@ -38,6 +33,8 @@ class Knowledge:
     """Names that others gave, with the vertex in this chart."""
     turns: dict[int, int] = field(default_factory=dict)
     """Quarter turns from each other robot's directions to this one's."""
+    origins: dict[int, Origin] = field(default_factory=dict)
+    """Where each robot's map lies, if they have a frame in common."""
 
     def find(self, name: Name) -> int | None:
         """Return the vertex of a name, if it is known."""
@@ -94,13 +91,6 @@ def report_of(known: Knowledge, version: int) -> MapReport:
     )
 
 
-def chart_of(report: MapReport) -> Chart:
-    """Return the map of a report, in its sender's directions and numbers in order."""
-    chart = Chart()
-    insert(chart, report, 0)
-    return chart
-
-
 def learn(
     known: Knowledge, report: MapReport, parameters: Parameters, sigma: float
 ) -> Verdict:
@@ -129,7 +119,13 @@ def learn(
     """
     common = _turn_by_names(known, report)
     if common is None:
-        return _meet(known, report, parameters, sigma)
+        meeting = meet(known.chart, report, _frame(known, report), parameters, sigma)
+        verdict = Verdict(False, meeting.reason)
+        for turn, pairs in meeting.overlays:
+            verdict = lay_over(known, report, turn, pairs)
+            if verdict.accepted:
+                break
+        return verdict
     return lay_over(known, report, common, _namesakes(known, report))
 
 
@@ -187,6 +183,14 @@ def _turn_by_names(known: Knowledge, report: MapReport) -> int | None:
     return None
 
 
+def _frame(known: Knowledge, report: MapReport) -> tuple[Origin, Origin] | None:
+    """Return where both maps lie, if they have a frame in common."""
+    origins = known.origins
+    if known.robot in origins and report.sender in origins:
+        return origins[known.robot], origins[report.sender]
+    return None
+
+
 def _namesakes(known: Knowledge, report: MapReport) -> list[tuple[int, int]]:
     """Return which vertices of the other's map are which of one's own, by name.
 
@@ -203,27 +207,6 @@ def _namesakes(known: Knowledge, report: MapReport) -> list[tuple[int, int]]:
                 chart.join(same)
         pairs += [(row.number, vertex) for vertex in here]
     return [(a, chart.now(b)) for a, b in pairs]
-
-
-def _meet(
-    known: Knowledge, report: MapReport, parameters: Parameters, sigma: float
-) -> Verdict:
-    """Merge with a stranger."""
-    theirs = chart_of(report)
-    if min(len(known.chart.places), len(theirs.places)) < LEAST:
-        return Verdict(False, f"a map has fewer than {LEAST} vertices")
-    mine = known.chart.as_map(parameters, sigma)
-    other = theirs.as_map(parameters, sigma)
-    found = match(to_graph(mine), to_graph(other), Options())
-    if not found.accepted or found.transform is None:
-        return Verdict(False, f"it does not surely fit: {found.reason}")
-    numbers = [row.number for row in report.places]
-    pairs = [
-        (numbers[other.vertices[b].id], mine.vertices[a].id)
-        for a, b in found.pairs.tolist()
-    ]
-    turn = round(found.transform.angle / (math.pi / 2)) % 4
-    return lay_over(known, report, turn, pairs)
 
 
 def _way_row(ways: Ways) -> tuple[str, str, str, str]:
