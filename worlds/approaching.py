@@ -18,6 +18,8 @@ AWAITED = {
     Until.HALL: Reason.NARROWED,
 }
 """How an approach ends where what it waits for has come."""
+CREDIBLE = 0.2
+"""So far odometry may be wrong, as a part of the way."""
 JUMP = 0.1
 """A wall ahead that is elsewhere by more, in parts of r0, is another one."""
 ROUNDS = 2
@@ -47,14 +49,14 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
         remaining = min(end + search.margin - robot.odometer, robot.ahead - keep)
         hold(robot, min(pace(robot, remaining), HASTE * robot.profile.speed))
         yield
-        end += gauge.error()
+        end = start + primitive.limit + gauge.error()
         if robot.is_fresh:
             search.update()
     yield from stop(robot)
     if search.place is None and search.is_even:
         search.recount(is_over=True)
     robot.seed = None  # what was ahead before a turn has served, or is behind
-    end += gauge.error()
+    end = start + primitive.limit + gauge.error()
     if search.place is not None and search.place <= end:
         yield from go(robot, search.place - robot.odometer, keep)
         is_short = search.place - robot.odometer > 2 * NEAR
@@ -65,7 +67,7 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
             if end - robot.odometer > 2 * NEAR:
                 reason = Reason.BLOCKED
                 break
-            end += gauge.error()
+            end = start + primitive.limit + gauge.error()
     front = -1.0
     if reason is Reason.BLOCKED:
         front = yield from keep_off(robot, keep)
@@ -93,17 +95,30 @@ def _look_back(robot: Robot, search: _Search) -> Control[None]:
 
 
 class _Gauge:
-    """What a wall ahead tells of the odometer's error."""
+    """What a wall ahead tells of the odometer's error on a way."""
 
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
+        self._start = robot.odometer
         self._wall = robot.wall_ahead
+        self._sum = 0.0
+        self._is_wall = True
 
     def error(self) -> float:
-        """Return what the odometer has counted too much since it was last asked."""
+        """Return what the odometer has counted too much, in metres; 0 if unknown.
+
+        A wall that seems to move with the robot is none: the rim of the spot of light
+        lies on a corner.
+        """
         before, self._wall = self._wall, self._robot.wall_ahead
-        error = self._wall - before
-        return error if abs(error) < JUMP * self._robot.parameters.r0 else 0.0
+        step = self._wall - before
+        jump = JUMP * self._robot.parameters.r0
+        if abs(step) < jump:
+            self._sum += step
+        way = self._robot.odometer - self._start
+        if abs(self._sum) > CREDIBLE * abs(way) + jump:
+            self._is_wall = False
+        return self._sum if self._is_wall else 0.0
 
 
 class _Search:
