@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+import shapely
 
 from behaviours import Parameters
 from behaviours.travel import travel
@@ -12,6 +13,7 @@ from behaviours.ways import Arrival, Way
 from tests.topomap.test_explore import TWO_ROOMS, union
 from topomap import build_map, walking
 from topomap.errors import JobError
+from topomap.hall_cells import hall_parts
 from topomap.hall_truth import true_hall_maps
 from worlds.errors import WorldError
 
@@ -46,9 +48,10 @@ ROOM = (0, 0, 2, 2)
         ),
         pytest.param(
             ROBOT,
-            ((0, 0, 3, 0.42), (2.2, -0.16, 5, 0.42), (2, 0, 2.5, 2)),
-            "a junction that is no rectangle",
-            id="no rectangle",
+            ((0, 0, 2.5, 0.5), (2, 0.06, 5, 0.56), (2, 0, 2.5, 2), (-2, -1, 0, 1)),
+            "junction at (2.25, 0.28): halls that face each other are 0.06 m off each "
+            "other's middle; expected at most 0.03 m",
+            id="facing halls",
         ),
         pytest.param(
             ROBOT,
@@ -81,6 +84,18 @@ ROOM = (0, 0, 2, 2)
 def test_what_is_refused_and_where(robot, boxes, says):
     with pytest.raises(WorldError, match=re.escape(says)):
         true_hall_maps(union(*boxes), robot)
+
+
+def test_a_junction_is_a_rectangle():
+    halls = shapely.union_all(
+        [
+            shapely.box(*box)
+            for box in ((-3, 0, 0.5, 0.5), (0.2, 0.2, 3, 0.7), (0, 0, 0.5, 3))
+        ]
+    )
+    says = r"hall at \(.*\): a junction that is no rectangle"
+    with pytest.raises(WorldError, match=says):
+        hall_parts(halls, shapely.Polygon(), 0.45)
 
 
 def test_there_is_no_way_where_there_is_none():
