@@ -54,10 +54,18 @@ class Exploration:
         """What is still called sure; less each time that it was not."""
         return float(ERROR / 10 ** len(self.refuted))
 
-    def begin_anew(self, place: Place) -> None:
-        """Unfold the map: all that is left is the place where the robot stands."""
+    def clear(self) -> None:
+        """Forget the map; vertices met from now on have numbers of their own."""
         self.chart.places.clear()
         self.chart.links.clear()
+        self.chart.became.clear()
         self.loops.clear()
         self.recognitions.clear()
+        self.closed = True
+
+    def begin_anew(self, place: Place) -> None:
+        """Unfold the map: all that is left is the place where the robot stands."""
+        is_closed = self.closed
+        self.clear()
+        self.closed = is_closed
         self.here = self.chart.add_place(place)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from behaviours.automaton import perform
+from behaviours.automaton import UnforeseenError, perform
 from behaviours.explore import EXPLORE, State
 from behaviours.follow_broken_wall import follow_broken_wall
 from behaviours.follow_hall import follow_hall
 from behaviours.move_to_wall import move_to_wall
-from behaviours.port import Approach, Sensor
+from behaviours.port import Approach, Reason, Sensor
 from behaviours.travel import travel
 from behaviours.ways import Way, turned
 from topomap.base_loops import close_loop, is_open_loop
@@ -98,6 +98,8 @@ def explore_halls(
 def _is_in_hall(parameters: Parameters) -> Behaviour[bool]:
     """Go forward until a wall is in range; return whether a hall is around."""
     outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
+    if outcome.reason is Reason.STUCK:
+        raise UnforeseenError(State.LOOK, outcome)
     return outcome.readings.left + outcome.readings.right <= 2 * parameters.r0
 
 

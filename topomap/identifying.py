@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,7 +36,7 @@ def identify(found: Exploration, vertex: int) -> Behaviour[bool]:
             unsure.pop()
             continue
         recognition = recognise(chart, found.parameters, found.sigma, vertex)
-        found.recognitions.append(recognition)
+        found.recognitions.append(replace(recognition, walls=found.walls))
         if not recognition.is_sure(found.error):
             best, _ = recognition.candidates[0]
             telling = _telling_way(found, vertex, best)

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from topomap.bodies import body_drift, body_parameters, make_body
+from topomap.bodies import body_drift, body_parameters, body_slip, make_body
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.errors import InputError
 from topomap.found import MAX_WALLS, Found, check_options, map_by
-from topomap.incursions.improving import IMPROVEMENTS, Improvement, improve_map
+from topomap.incursions.improving import IMPROVEMENTS, Improvement, improve_found
 from topomap.parts import compare_wholes, in_one
 from topomap.truth import true_maps
 from worlds.fit import is_open
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from evidence.walls import LoopCloser
     from topomap.comparison import Comparison
     from worlds.pose import Pose
+    from worlds.profile import Profile
     from worlds.world import World
 
 __all__ = ["Build", "build_map"]
@@ -57,7 +58,7 @@ def build_map(
     world: World,
     rng: np.random.Generator,
     *,
-    body: str = "ideal",
+    body: str | Profile = "ideal",
     sigma: float = 0.06,
     start: Pose | None = None,
     parameters: Parameters | None = None,
@@ -75,7 +76,7 @@ def build_map(
         loop to walk; else the robot explores rooms and halls, 2 r_w to 2 r0 wide.
     rng : numpy.random.Generator
         Draws the start, where none is given, and all of the body's errors.
-    body : {"ideal", "physical"} or a profile's name
+    body : {"ideal", "physical"}, a profile's name or a Profile
         What executes the behaviours; see `topomap.bodies.make_body`.
     sigma : float
         Standard deviation of a measured length, as a part of the length, from
@@ -139,26 +140,21 @@ def build_map(
     if watch is not None:
         robot = watch(robot)
     closer = (
-        make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
+        make_closer(closing, sigma, parameters, slip=body_slip(body))
+        if isinstance(closing, str)
+        else closing
     )
     halls = not is_open(world, parameters)
     if halls and improve != "none":
         expected = "none: incursions are for worlds without halls"
         raise InputError("", "improve", improve, expected)
     found = map_by(robot, closer, max_walls, sigma, halls=halls)
-    chart, improvement = found.map, None
-    if found.closed and not halls:
-        (walk,) = found.loops
+    improvement = None
+    if not halls:
         name = closing if isinstance(closing, str) else "likelihood"
-        improvement = improve_map(
-            chart,
-            improve,
-            body_drift(body, sigma),
-            body=robot,
-            vertex=len(walk.loop.legs) % (walk.period or 1),
-            make_closer=lambda: make_closer(name, sigma, parameters, slips=False),
-        )
-        chart = improvement.map
+        drift = body_drift(body, sigma)
+        improvement = improve_found(found, improve, drift, robot, name)
+    chart = improvement.map if improvement else found.map
     return Build(
         *(chart, found.closed, found.loops, found.recognitions, found.walls),
         found.refuted,

@@ -49,6 +49,8 @@ class Recognition:
     """The vertex in question."""
     candidates: tuple[tuple[int, float], ...]
     """Earlier vertices that it may be, with their probabilities, best first."""
+    walls: int = 0
+    """How many edges the robot had walked then."""
 
     @property
     def known(self) -> int | None:

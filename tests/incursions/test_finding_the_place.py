@@ -18,11 +18,11 @@ from topomap.incursions.known_space import free_space, swept_along, wall_polygon
 from topomap.incursions.layout import lay_out
 from topomap.incursions.localising import anywhere, believe, likeliest, repeated
 from topomap.incursions.search import hidden_space, rays_through, spots_of
-from topomap.incursions.sureness import landing_sureness
+from topomap.incursions.sureness import driven_sureness
 from topomap.merging import merge_maps
 from topomap.parts import base_map, compare_wholes, in_one, islands, parts
-from topomap.routes.driving import match_world
 from topomap.routes.limits import shortest_ways, true_lengths
+from topomap.routes.matching import match_world
 from topomap.routes.steps import Arrival
 from topomap.truth import true_map, true_maps
 from worlds.sweeping import pieces
@@ -123,7 +123,7 @@ def test_sureness_falls_with_drift_and_is_one_without():
     assert driven
     for edge in driven:
         values = [
-            landing_sureness(layout, edge, Drift(0.02, turn=turn))
+            driven_sureness(layout, edge, Drift(0.02, turn=turn))
             for turn in (0.0, 0.02, 0.2)
         ]
         assert values[0] == 1.0

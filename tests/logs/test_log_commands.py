@@ -49,6 +49,37 @@ def test_a_replay_writes_the_same_bytes(room, capsys, body):
     assert (room / "b.svg").read_text().startswith("<?xml")
 
 
+@pytest.mark.parametrize(
+    ("body", "improve"),
+    [("ideal", "passive"), ("ideal", "active"), ("physical", "active")],
+)
+def test_a_replay_of_a_run_with_incursions_writes_the_same_bytes(
+    room, capsys, body, improve
+):
+    pillar = [[(2.4, 2.2), (3.6, 2.2), (3.6, 3.4), (2.4, 3.4)]]
+    save_world(make_world([(0, 0), (6, 0), (6, 5), (0, 5)], pillar), room / "p.json")
+    run = ("--body", body, "--improve", improve, "--sigma", "0.03", "--json")
+    plain = ("build", "p.json", "-o", "plain.json", *run)
+    code, out, err = call(capsys, *plain)
+    assert (code, err) == (0, "")
+    assert json.loads(out)["islands"] == (improve == "active")
+    call(capsys, "build", "p.json", "-o", "a.json", "--log", "run.mcap", *run)
+    judged = ("build", "p.json", "--replay", "run.mcap", "-o", "b.json", "--json")
+    code, out, err = call(capsys, *judged)
+    assert (code, err) == (0, "")
+    assert json.loads(out)["correct"] is True
+    assert json.loads(out)["islands"] == (improve == "active")
+    made = [(room / name).read_bytes() for name in ("plain.json", "a.json", "b.json")]
+    assert made[0] == made[1] == made[2]
+
+
+def test_a_replay_is_improved_as_its_log_says(room, capsys):
+    replay = ("build", "--replay", "run.mcap", "-o", "b.json", "--improve", "active")
+    code, out, err = call(capsys, *replay)
+    assert (code, out) == (2, "")
+    assert "--improve: expected none: the log tells it; got 'active'" in err
+
+
 def test_the_log_changes_no_byte_of_the_map(room, capsys):
     call(capsys, "build", "room.json", "-o", "a.json", "--log", "run.mcap")
     call(capsys, "build", "room.json", "-o", "b.json")

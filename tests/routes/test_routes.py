@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from tests.incursions.scenes import random_world
 from topomap import InputError, JobError, build_map
 from topomap.routes.costs import all_distances, cost_of
-from topomap.routes.driving import drive_route, match_world
+from topomap.routes.driving import drive_route
+from topomap.routes.matching import match_world
 from topomap.routes.planning import plan_route
 from topomap.truth import true_map
 from worlds.world import make_world
@@ -144,18 +145,3 @@ def _robot():
 def test_the_route_to_where_one_is_has_no_steps():
     room = true_map([(0, 0), (4, 0), (4, 3), (0, 3)], _robot())
     assert plan_route(room, 2, 2).steps == ()
-
-
-def test_a_hall_is_not_driven_and_said_so():
-    from dataclasses import replace
-
-    room = true_map([(0, 0), (4, 0), (4, 3), (0, 3)], _robot())
-    hall = replace(room.edges[0], behaviour="HF")
-    chart = replace(room, edges=(hall, *room.edges[1:]))
-    world = make_world([(0, 0), (4, 0), (4, 3), (0, 3)])
-    drive = drive_route(match_world(chart, world), 0, 1, np.random.default_rng(0))
-    assert not drive.arrived
-    assert drive.failure == (
-        "the way from vertex 0 to vertex 1 is HF at INT: only walls in open space can "
-        "be driven"
-    )

@@ -90,7 +90,7 @@ def build(
     """Let one robot build the map of all it can reach along walls and halls."""
     import numpy as np
 
-    from topomap.bodies import body_parameters
+    from topomap.bodies import body_parameters, body_slip
     from topomap.cli.console import naming, say, show_json, watched
     from topomap.closers import make_closer
     from topomap.drawing import check_picture
@@ -102,6 +102,8 @@ def build(
     from topomap.mapping import build_map
 
     if replay is not None:
+        if improve != "none":
+            raise InputError("--improve", "", improve, "none: the log tells it")
         from topomap.cli.replay import make_again
 
         options = {"closing": closing, "sigma": sigma, "max_walls": max_walls}
@@ -113,9 +115,6 @@ def build(
             raise InputError(f"--{name}", "", value, "--replay with it")
     if world is None:
         raise InputError("WORLD", "", None, "a world file, or --replay")
-    if log is not None and improve != "none":
-        expected = "--improve none: a log holds the walk along walls and halls alone"
-        raise InputError("--log", "", str(log), expected)
     sigma = 0.06 if sigma is None else sigma
     closing = closing or "likelihood"
     max_walls = MAX_WALLS if max_walls is None else max_walls
@@ -129,13 +128,15 @@ def build(
         from topomap.page.html import check_page
 
         check_page(page)
+    lengths, slip = body_parameters(body), body_slip(body)
     about = {"body": body, "sigma": sigma, "seed": seed, "closing": closing}
+    about |= {"slip": slip, "max_walls": max_walls, "improve": improve}
     onlooker = None if page is None else _onlooker(place, sigma, body)
     began = time.perf_counter()
     with (
         naming(world),
-        _logged(log, place, {**about, "max_walls": max_walls}) as recorder,
-        watched(make_closer(closing, sigma, body_parameters(body))) as closer,
+        _logged(log, place, about) as recorder,
+        watched(make_closer(closing, sigma, lengths, slip=slip)) as closer,
     ):
         lookers = [looker for looker in (onlooker, recorder) if looker is not None]
         for looker in lookers:
@@ -217,11 +218,11 @@ def _logged(
     if log is None:
         return nullcontext()
     from topomap.bodies import body_parameters
+    from topomap.logs.building import about_run
     from topomap.logs.recording import recording
-    from worlds.fit import is_open
 
-    halls = not is_open(world, body_parameters(about["body"]))
-    return recording(log, {**about, "halls": halls})
+    told = about_run(world, body_parameters(about["body"]), **about)
+    return recording(log, told)
 
 
 def _watched_by(robot: Body, looker: BuildRecorder | Recording) -> Body:

@@ -49,6 +49,7 @@ def make_again(
     from topomap.files.world_files import load_world
     from topomap.found import check_options
     from topomap.map_drawing import draw_map
+    from topomap.parts import compare_wholes, in_one
     from topomap.truth import true_maps
 
     place = None if world is None else load_world(world)
@@ -63,7 +64,14 @@ def make_again(
     parameters = made.map.parameters
     if place is not None and parameters is not None:
         try:
-            found = compare_maps(made.map, *true_maps(place, parameters))
+            truth = true_maps(place, parameters)
+            better = made.improvement
+            is_driven = better and (better.exploration or better.failure)
+            found = (
+                compare_wholes(made.map, in_one(truth))
+                if is_driven
+                else compare_maps(made.map, *truth)
+            )
         except ValueError as error:
             raise InputError(
                 str(world), "", None, f"a world to judge by: {error}"
@@ -78,6 +86,11 @@ def make_again(
         raise JobError(f"no closure found after {made.walls} walls: {made.reason}")
     if not as_json:
         say(_sentence(made, found, output))
+    if made.improvement is not None and made.improvement.failure:
+        raise JobError(
+            "the map was not improved to the end, and is saved as far as it went: "
+            f"{made.improvement.failure}"
+        )
 
 
 def _made(log: Path, options: dict[str, Any], topics: dict[str, str | None]) -> Replay:
@@ -102,6 +115,7 @@ def _summary(made: Replay, found: Comparison | None, elapsed: float) -> dict[str
         "correct": None if found is None else made.closed and found.correct,
         "vertices": len(made.map.vertices),
         "edges": len(made.map.edges),
+        "islands": made.improvement.islands if made.improvement else 0,
         "unexplored_exits": made.map.unexplored_exits,
         "travelled_m": round(made.travelled, 3),
         "simulated_s": round(made.simulated, 3),

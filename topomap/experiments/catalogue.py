@@ -24,6 +24,7 @@ MODULES = (
     "topomap.experiments.mapping",
     "topomap.experiments.merging",
     "topomap.experiments.team",
+    "topomap.experiments.team_plans",
     "topomap.experiments.merging_fleets",
     "topomap.experiments.merging_plans",
     "topomap.experiments.replaying",

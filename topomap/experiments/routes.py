@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from topomap.errors import JobError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.mapping import build_map
-from topomap.routes.driving import drive_route, match_world
+from topomap.routes.driving import drive_route
+from topomap.routes.matching import match_world
 from topomap.routes.planning import NoWayError
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["EXPERIMENTS", "random_pairs"]
 
-PAIRS = 25
+PAIRS = 100
 """Pairs driven on each map."""
 MOST_WORLDS = 20
 """So many worlds are tried until one's map is correct."""
@@ -106,7 +107,7 @@ EXPERIMENTS = (
             _cell("physical", 0.06, 12, 2, "active"),
         ),
         random_pairs,
-        trials=1000,
+        trials=5000,
         batch_size=PAIRS,
         shares=("arrived", "planned anew", "silently elsewhere"),
         means=("travelled_m", "incursions taken", "found elsewhere", "collisions"),

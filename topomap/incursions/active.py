@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 from topomap.incursions.agenda import (
     Agenda,
     Crossed,
+    Purpose,
     agenda_of,
     crossed_way,
     geometry_of,
     is_needless,
 )
 from topomap.incursions.candidates import Options
-from topomap.incursions.keeping import finished, keep
+from topomap.incursions.keeping import finished, keep, placed_anew
 from topomap.incursions.known_space import free_space
 from topomap.incursions.search import outward
 from topomap.routes.costs import all_distances
@@ -30,6 +31,8 @@ __all__ = ["Exploration", "explore_space"]
 
 MOST_PLANS = 60
 """So often the rest is planned anew."""
+MOST_LINKS = 4
+"""So many ways a loop are driven only to join it more surely to the others."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +60,13 @@ class _Survey:
     """Vertex ids and whole degrees of the ways driven, wherever they led."""
     unreturnable: set[tuple[int, int]] = field(default_factory=set)
     dropped: int = 0
+    links: int = 0
+    """Ways driven to join parts of the map."""
+
+    @property
+    def may_link(self) -> bool:
+        """Whether more ways may be driven to join parts of the map."""
+        return self.links < MOST_LINKS * (len(self.journey.layout.loops) - 1)
 
     def note(self, source: int, phi: float, outcome: Outcome, reach: float) -> None:
         """Remember a way across, and what was swept on it."""
@@ -96,7 +106,10 @@ def explore_space(
     for _ in range(MOST_PLANS):
         if free_space(journey.layout) is None and (yield from _probe(survey)):
             continue
-        agenda = agenda_of(journey, survey.options, survey.crossed, survey.tried)
+        journey.chart = placed_anew(journey.chart, survey.options).chart
+        agenda = agenda_of(
+            journey, survey.options, survey.crossed, survey.tried, survey.may_link
+        )
         survey.unreturnable |= agenda.unreturnable
         if not (yield from _tour(survey, agenda)):
             break
@@ -120,6 +133,7 @@ def _tour(survey: _Survey, agenda: Agenda) -> Behaviour[bool]:
             yield from journey.go_to(task.source)
         except NoWayError:
             break
+        survey.links += purpose is Purpose.LINK
         layout = journey.layout
         if not (yield from _drive(survey, task)):
             break

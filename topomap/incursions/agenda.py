@@ -14,6 +14,7 @@ from shapely.affinity import translate
 from topomap.folding import FARTHEST
 from topomap.incursions.candidates import Options, candidates, edge_of
 from topomap.incursions.known_space import free_space, known_space, swept_along
+from topomap.incursions.linking import links_wanted, ways_home
 from topomap.incursions.passive import is_swept, with_passive
 from topomap.incursions.targets import (
     SIGHT,
@@ -26,8 +27,6 @@ from topomap.routes.costs import all_distances
 from topomap.topological_map import Edge
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from topomap.incursions.candidates import Candidate
     from topomap.incursions.layout import Layout
     from topomap.routes.journey import Journey, Outcome
@@ -44,10 +43,6 @@ __all__ = [
 
 CRUMB = 1e-3
 """A way of no length, in metres."""
-LESS_SURE = 2.0, 1.0, 0.3
-"""Confidences, in standard deviations, at which a way home is looked for."""
-LESS_ROOM = 0.1
-"""Part of the room at the ends of a wall that is then kept."""
 LEAST_AREA = 1e-3
 """Less hidden space than this, in square metres, hides nothing."""
 
@@ -72,6 +67,8 @@ class Purpose(Enum):
     """To sweep hidden space."""
     HOME = auto()
     """To come back to where the robot came from."""
+    LINK = auto()
+    """To join parts of the map that no sure way joins."""
 
 
 class Agenda(NamedTuple):
@@ -99,6 +96,7 @@ def agenda_of(
     options: Options,
     crossed: list[Crossed],
     tried: set[tuple[int, int]],
+    may_link: bool,
 ) -> Agenda:
     """Find what is worth driving; the journey's map gets its passive incursions.
 
@@ -112,6 +110,8 @@ def agenda_of(
         What was driven before.
     tried : set of (vertex id, degrees)
         Ways that were driven before, wherever they led.
+    may_link : bool
+        Whether ways are looked for that join parts of the map more surely.
 
     Returns
     -------
@@ -135,9 +135,13 @@ def agenda_of(
     open_ = [c for c, ok in zip(found, proven, strict=True) if not ok]
     chosen = worth_proving(open_, distances, options)
     purposes = dict.fromkeys(chosen, Purpose.PROOF)
-    home = _ways_home(layout, here, distances, options)
+    home = ways_home(layout, here, distances, options)
     purposes |= dict.fromkeys(home, Purpose.HOME)
     chosen += home
+    if may_link:
+        links = links_wanted(layout, options, tried)
+        purposes |= dict.fromkeys(links, Purpose.LINK)
+        chosen += links
     chosen += search_targets(layout, space, distances, here, FARTHEST, tried)
     able = []
     given_up: set[tuple[int, int]] = set()
@@ -158,30 +162,6 @@ def agenda_of(
     return Agenda(tasks, space, given_up)
 
 
-def _ways_home(
-    layout: Layout, here: int, distances: NDArray[np.float64], options: Options
-) -> list[Candidate]:
-    """Return ways to what the robot has come from and cannot reach surely.
-
-    On an island found a moment ago, no wall elsewhere may be wide enough to be sure
-    of. Then the surest is tried; where the robot lands it finds out by evidence.
-    """
-    apart = ~np.isfinite(distances[here])
-    if not apart.any():
-        return []
-    for confidence in (options.confidence, *LESS_SURE):
-        part = 1.0 if confidence == options.confidence else LESS_ROOM
-        lax = replace(options, confidence=confidence, allowance=part)
-        found = [
-            c
-            for c in candidates(layout, distances, lax)
-            if apart[c.target] and not apart[c.source]
-        ]
-        if found:
-            return sorted(found, key=lambda c: (-round(c.sureness, 2), c.length))[:3]
-    return []
-
-
 def is_needless(
     layout: Layout, task: Edge, purpose: Purpose, space: shapely.Geometry
 ) -> bool:
@@ -197,11 +177,11 @@ def is_needless(
     task : Edge
         The way.
     purpose : Purpose
-        A way home is never needless.
+        A way home, or one that joins parts, is never needless.
     space : shapely.Geometry
         Known space.
     """
-    if purpose is Purpose.HOME:
+    if purpose in (Purpose.HOME, Purpose.LINK):
         return False
     start = layout.positions[layout.index[task.source]]
     ahead = np.array([math.cos(task.source_exit), math.sin(task.source_exit)])

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from behaviours.port import run
+from topomap.closers import make_closer
 from topomap.errors import InputError, JobError
 from topomap.incursions.active import Exploration, explore_space
 from topomap.incursions.candidates import Options
@@ -21,11 +22,12 @@ if TYPE_CHECKING:
 
     from behaviours.port import Body
     from evidence.walls import LoopCloser
+    from topomap.found import Found
     from topomap.incursions.errors import Drift
     from topomap.routes.journey import Event
     from topomap.topological_map import TopologicalMap
 
-__all__ = ["IMPROVEMENTS", "Improvement", "improve_map"]
+__all__ = ["IMPROVEMENTS", "Improvement", "improve_found", "improve_map"]
 
 IMPROVEMENTS = "none", "passive", "active"
 """What can be done to a base map."""
@@ -51,6 +53,48 @@ class Improvement:
         return islands(self.map)
 
 
+def improve_found(
+    found: Found, improve: str, drift: Drift, body: Body, closing: str = "likelihood"
+) -> Improvement | None:
+    """Let a body improve the map that it has just made, and that it stands on.
+
+    Parameters
+    ----------
+    found : Found
+        Of a world without halls.
+    improve : {"none", "passive", "active"}
+        What to do.
+    drift : Drift
+        Errors of the body.
+    body : Body
+        Simulated, real or recorded; it has not moved since.
+    closing : str
+        Decides when it has come round an island: names as in
+        `topomap.closers.CLOSINGS`.
+
+    Returns
+    -------
+    Improvement or None
+        As of `improve_map`; None where the loop is open.
+
+    Raises
+    ------
+    InputError
+        If there is no such improvement.
+    """
+    walk = found.walk
+    if walk.period is None:
+        return None
+    return improve_map(
+        found.map,
+        improve,
+        drift,
+        body=body,
+        vertex=len(walk.legs) % walk.period,
+        new_closer=lambda: make_closer(closing, drift.sigma, body.parameters, slip=0.0),
+    )
+
+
 def improve_map(
     chart: TopologicalMap,
     improve: str,
@@ -58,7 +102,7 @@ def improve_map(
     *,
     body: Body | None = None,
     vertex: int = 0,
-    make_closer: Callable[[], LoopCloser] | None = None,
+    new_closer: Callable[[], LoopCloser] | None = None,
 ) -> Improvement:
     """Add incursions to a base map, by reckoning alone or by driving.
 
@@ -75,7 +119,7 @@ def improve_map(
         the wall on its right.
     vertex : int
         Id of that vertex.
-    make_closer : callable, optional
+    new_closer : callable, optional
         Returns a loop closer, not yet begun, for the islands that are found.
 
     Returns
@@ -97,11 +141,11 @@ def improve_map(
         return Improvement(chart, None, (), 0.0, "")
     if improve == "passive":
         return Improvement(add_passive(chart, options), None, (), 0.0, "")
-    if body is None or make_closer is None:
+    if body is None or new_closer is None:
         raise ValueError("active incursions need a body and a loop closer")
     wall = next(edge for edge in chart.edges if edge.target == vertex)
     heading = wall.target_exit + math.pi
-    journey = Journey(chart, vertex, heading, drift, make_closer)
+    journey = Journey(chart, vertex, heading, drift, new_closer)
     before = body.travelled
     failure, exploration = "", None
     try:

@@ -14,19 +14,22 @@ from topomap.incursions.agenda import CRUMB, Crossed, geometry_of
 from topomap.incursions.known_space import known_space
 from topomap.incursions.layout import lay_out
 from topomap.incursions.passive import with_passive
-from topomap.incursions.sureness import landing_sureness, with_sureness
+from topomap.incursions.sureness import (
+    TRUSTED,
+    driven_sureness,
+    sure_ways,
+    with_sureness,
+)
 from topomap.topological_map import Length
 
 if TYPE_CHECKING:
     from topomap.incursions.candidates import Options
+    from topomap.incursions.layout import Layout
     from topomap.routes.journey import Journey, Outcome
     from topomap.routes.steps import Arrival
     from topomap.topological_map import Edge, TopologicalMap
 
-__all__ = ["finished", "keep"]
-
-TRUSTED = 0.95
-"""Driven incursions that are less sure are left out of the map if they can be."""
+__all__ = ["finished", "keep", "placed_anew"]
 
 
 def keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
@@ -46,7 +49,7 @@ def keep(journey: Journey, task: Edge, outcome: Outcome) -> None:
         kind="active",
         widths=_widths(arrival),
     )
-    sureness = landing_sureness(journey.layout, edge, journey.drift)
+    sureness = driven_sureness(journey.layout, edge, journey.drift)
     edge = replace(edge, sureness=sureness)
     journey.chart = replace(journey.chart, edges=(*journey.chart.edges, edge))
 
@@ -73,28 +76,30 @@ def finished(
     crossed : list of Crossed
         What was swept on the ways across.
     """
-    layout = lay_out(embedded(chart))
-    chart = _trusted(with_sureness(layout, options.drift))
-    layout = replace(layout, chart=chart)
+    layout = placed_anew(chart, options)
+    is_sure = [e.kind != "active" or e.sureness >= TRUSTED for e in layout.chart.edges]
+    edges = list(zip(layout.chart.edges, is_sure, strict=True))
+    kept = tuple(edge for edge, ok in edges if ok)
+    layout = replace(layout, chart=replace(layout.chart, edges=kept))
     space = known_space(layout, geometry_of(layout, crossed))
-    return with_passive(layout, space, options)
+    improved = with_passive(layout, space, options)
+    return _joined(improved, [edge for edge, ok in edges if not ok])
 
 
-def _trusted(chart: TopologicalMap) -> TopologicalMap:
-    """Leave out driven incursions that are not sure, unless only they lead there."""
+def placed_anew(chart: TopologicalMap, options: Options) -> Layout:
+    """Lay out a map by all that was measured, and reckon anew what can be trusted."""
+    layout = lay_out(embedded(chart))
+    return replace(layout, chart=with_sureness(layout, options.drift))
+
+
+def _joined(chart: TopologicalMap, unsure: list[Edge]) -> TopologicalMap:
+    """Add unsure incursions, the surest first, where nothing else leads there."""
     import networkx as nx
 
-    index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
-    kept = [e for e in chart.edges if e.kind != "active" or e.sureness >= TRUSTED]
-    left = [e for e in chart.edges if e.kind == "active" and e.sureness < TRUSTED]
-    graph: nx.DiGraph[int] = nx.DiGraph()
-    graph.add_nodes_from(index.values())
-    for edge in kept:
-        a, b = index[edge.source], index[edge.target]
-        graph.add_edges_from([(a, b)] if edge.is_incursion else [(a, b), (b, a)])
-    for edge in sorted(left, key=lambda e: -e.sureness):
-        a, b = index[edge.source], index[edge.target]
-        if not nx.has_path(graph, a, b):
-            graph.add_edge(a, b)
-            kept.append(edge)
-    return replace(chart, edges=tuple(kept))
+    graph = sure_ways(chart)
+    added: list[Edge] = []
+    for edge in sorted(unsure, key=lambda e: -e.sureness):
+        if not nx.has_path(graph, edge.source, edge.target):
+            graph.add_edge(edge.source, edge.target)
+            added.append(edge)
+    return replace(chart, edges=(*chart.edges, *added))

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import asdict
 from os import PathLike
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from topomap.bodies import body_parameters
+from topomap.bodies import body_drift, body_parameters, body_slip
 from topomap.closers import make_closer
 from topomap.found import MAX_WALLS
 from topomap.logs.recording import recording
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from worlds.pose import Pose
     from worlds.world import World
 
-__all__ = ["build_logged"]
+__all__ = ["about_run", "build_logged"]
 
 
 def build_logged(
@@ -37,6 +37,7 @@ def build_logged(
     parameters: Parameters | None = None,
     closing: str = "likelihood",
     max_walls: int = MAX_WALLS,
+    improve: str = "none",
     watch: Callable[[Body], Body] | None = None,
     listen: Callable[[LoopCloser], LoopCloser] | None = None,
 ) -> Build:
@@ -62,6 +63,8 @@ def build_logged(
         One of `topomap.closers.CLOSINGS`.
     max_walls : int
         The loop is given up as open after so many walls.
+    improve : {"none", "passive", "active"}
+        What is done to the closed base map.
     watch : callable, optional
         Gets the body, and returns one that does the same and looks on.
     listen : callable, optional
@@ -94,16 +97,18 @@ def build_logged(
     (True, 'nav_msgs/msg/Odometry')
     """
     lengths = parameters or body_parameters(body)
-    closer = make_closer(closing, sigma, lengths)
+    slip = body_slip(body)
+    closer = make_closer(closing, sigma, lengths, slip=slip)
     about = {
         "body": body,
         "start": None if start is None else asdict(start),
         "sigma": sigma,
         "closing": closing,
+        "slip": slip,
         "max_walls": max_walls,
-        "halls": not is_open(world, lengths),
+        "improve": improve,
     }
-    with recording(log, about) as recorder:
+    with recording(log, about_run(world, lengths, **about)) as recorder:
         built = build_map(
             world,
             rng,
@@ -113,9 +118,32 @@ def build_logged(
             parameters=parameters,
             closing=recorder.listen(closer if listen is None else listen(closer)),
             max_walls=max_walls,
+            improve=improve,
             watch=lambda robot: recorder.watch(
                 robot if watch is None else watch(robot)
             ),
         )
         recorder.show(built.map)
     return built
+
+
+def about_run(world: World, parameters: Parameters, **about: Any) -> dict[str, Any]:
+    """Return what the log of a simulated run says of it.
+
+    Parameters
+    ----------
+    world : World
+        Decides which exploration is called for.
+    parameters : Parameters
+        The lengths the robot keeps.
+    **about
+        The options of the run, ``body`` and ``sigma`` among them.
+
+    Returns
+    -------
+    dict
+        The options; whether there are ``halls``; and the ``drift`` of the body, which
+        decides which incursions are sure.
+    """
+    drift = asdict(body_drift(about["body"], about["sigma"]))
+    return {**about, "halls": not is_open(world, parameters), "drift": drift}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any
 
@@ -11,9 +11,11 @@ import msgspec
 
 from behaviours.parameters import Parameters
 from behaviours.port import Outcome, Primitive
-from topomap.closers import make_closer
+from topomap.closers import SLIP, make_closer
 from topomap.errors import InputError
 from topomap.found import Found, map_by
+from topomap.incursions.errors import Drift
+from topomap.incursions.improving import Improvement, improve_found
 from topomap.logs.messages import text_of
 from topomap.logs.reading import Topics, messages_of
 from topomap.logs.records import from_plain, to_plain
@@ -50,6 +52,8 @@ class Replay(Found):
     simulated: float
     """Time in the robot's world, in seconds."""
     collisions: int = 0
+    improvement: Improvement | None = None
+    """What was done to the base map; None where its loop stayed open."""
 
 
 def read_recorded(path: str | PathLike[str]) -> tuple[Recorded | None, Topics]:
@@ -182,7 +186,7 @@ def replay_map(
         raise InputError("", "closing", None, expected)
     deviation = about.sigma if sigma is None else sigma
     body = RecordedBody(recorded)
-    closer = make_closer(name, deviation, recorded.parameters)
+    closer = make_closer(name, deviation, recorded.parameters, slip=about.slip)
     found = map_by(
         body,
         closer if watch is None else watch(closer),
@@ -190,12 +194,18 @@ def replay_map(
         deviation,
         halls=about.halls,
     )
+    better = None
+    if not about.halls:
+        drift = replace(about.drift, sigma=deviation)
+        better = improve_found(found, about.improve, drift, body)
     return Replay(
-        *(found.map, found.closed, found.loops, found.recognitions, found.walls),
+        better.map if better else found.map,
+        *(found.closed, found.loops, found.recognitions, found.walls),
         found.refuted,
         body.travelled,
         body.clock,
         body.collisions,
+        better,
     )
 
 
@@ -206,7 +216,10 @@ class _About:
     sigma: float
     max_walls: int
     closing: str | None = None
+    slip: float = SLIP
     halls: bool = False
+    improve: str = "none"
+    drift: Drift = field(default_factory=Drift)
 
 
 def _made(source: str, field: str, plain: object, kind: type[Any]) -> Any:

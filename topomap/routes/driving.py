@@ -11,43 +11,25 @@ from behaviours.parameters import Parameters
 from behaviours.port import Align, Side, run
 from topomap.bodies import body_drift, make_body
 from topomap.closers import make_closer
-from topomap.comparison import Comparison, compare_maps
-from topomap.errors import InputError, JobError
-from topomap.headings import quarter_of
-from topomap.incursions.crossing import axis_near
-from topomap.parts import base_map, compare_wholes, in_one
+from topomap.errors import JobError
+from topomap.routes.hall_journey import drive_through_halls
+from topomap.routes.hall_places import has_halls
 from topomap.routes.journey import Event, Journey
+from topomap.routes.matching import Matched
 from topomap.routes.planning import Route, plan_route
+from topomap.routes.setting_down import set_down, set_down_in_halls
 from topomap.routes.steps import follow_on
-from topomap.truth import true_maps
-from worlds.pose import Pose
 
 if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.port import Behaviour, Body
-    from topomap.topological_map import Edge, TopologicalMap
-    from worlds.world import World
+    from topomap.topological_map import Edge
 
-__all__ = ["Drive", "Matched", "drive_route", "match_world", "set_down"]
+__all__ = ["Drive", "drive_route"]
 
 ARRIVED = 0.5
 """A robot has arrived that stands so near to the vertex, in metres."""
-RUN_UP = 0.3
-"""Most of the wall before its start vertex that a robot is given, in metres."""
-
-
-@dataclass(frozen=True, eq=False)
-class Matched:
-    """A map laid over the world that it is of."""
-
-    world: World
-    chart: TopologicalMap
-    truth: TopologicalMap
-    """All loops of the world."""
-    comparison: Comparison
-    pairs: dict[int, int]
-    """Vertex ids of the map to those of the truth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,31 +49,6 @@ class Drive:
     travelled: float
     """True way, in metres."""
     collisions: int
-
-
-def match_world(chart: TopologicalMap, world: World) -> Matched:
-    """Lay a map over the truth of its world.
-
-    Raises
-    ------
-    JobError
-        If no vertex of the map is surely one of the world's.
-    """
-    robot = chart.parameters or Parameters()
-    loops = true_maps(world, robot)
-    truth = in_one(loops)
-    comparison = compare_wholes(chart, truth)
-    if not comparison.correct:
-        # A map of one loop: ids count on from loop to loop.
-        first = 0
-        for loop in loops:
-            found = compare_maps(base_map(chart), loop)
-            if found.correct:
-                pairs = {i: first + j for i, j in found.pairs}
-                return Matched(world, chart, truth, found, pairs)
-            first += len(loop.vertices)
-        raise JobError("the map is not that of the world: nothing to drive by")
-    return Matched(world, chart, truth, comparison, dict(comparison.pairs))
 
 
 def drive_route(
@@ -139,6 +96,8 @@ def drive_route(
         If there is no way at all.
     """
     first = plan_route(matched.chart, source, target, cost)
+    if has_halls(matched.chart):
+        return _drive_through_halls(matched, first, rng, body, sigma, cost)
     parameters = matched.chart.parameters or Parameters()
     pose, wall = set_down(matched, source)
     robot = make_body(
@@ -149,7 +108,7 @@ def drive_route(
         source,
         wall.source_exit,
         body_drift(body, sigma),
-        lambda: make_closer(closing, sigma, parameters, slips=False),
+        lambda: make_closer(closing, sigma, parameters, slip=0.0),
     )
     failure, routes = "", [first]
     try:
@@ -157,12 +116,49 @@ def drive_route(
         routes = run(journey.go_to(target, cost), robot)
     except (JobError, UnforeseenError) as error:
         failure = str(error)
+    return _driven(matched, robot, routes, journey.events, failure)
+
+
+def _drive_through_halls(
+    matched: Matched,
+    first: Route,
+    rng: np.random.Generator,
+    body: str,
+    sigma: float,
+    cost: str,
+) -> Drive:
+    """Set a robot down in a world of halls, and let it drive."""
+    parameters = matched.chart.parameters or Parameters()
+    pose, quarters, is_hall = set_down_in_halls(matched, first.source)
+    robot = make_body(
+        body, matched.world, pose, rng, sigma=sigma, parameters=parameters
+    )
+    failure, routes = "", [first]
+    events: list[Event] = []
+    drive = drive_through_halls(
+        *(matched.chart, first, quarters, sigma, cost), is_hall=is_hall, events=events
+    )
+    try:
+        routes = run(drive, robot)
+    except (JobError, UnforeseenError) as error:
+        failure = str(error)
+    return _driven(matched, robot, routes, events, failure)
+
+
+def _driven(
+    matched: Matched,
+    robot: Body,
+    routes: list[Route],
+    events: list[Event],
+    failure: str,
+) -> Drive:
+    """Return what came of a drive, held against the truth."""
     claims = not failure
     return Drive(
         tuple(routes),
-        tuple(journey.events),
+        tuple(events),
         claims,
-        claims and _is_at(matched, robot, target),
+        claims and _is_at(matched, robot, routes[-1].target),
         failure,
         robot.travelled,
         robot.collisions,
@@ -186,31 +182,6 @@ def _walk_up(journey: Journey, wall: Edge) -> Behaviour[None]:
             f"{vertex.type.name}"
         )
     journey.heading = arrival.heading
-
-
-def set_down(matched: Matched, vertex: int) -> tuple[Pose, Edge]:
-    """Return a pose beside the wall before a vertex, and the map's edge along it.
-
-    Raises
-    ------
-    InputError
-        If the vertex is none of the world's.
-    """
-    wall = next(
-        (e for e in matched.chart.edges if e.target == vertex and not e.is_incursion),
-        None,
-    )
-    goal = matched.pairs.get(vertex)
-    if wall is None or goal is None:
-        raise InputError("", "source", vertex, "a vertex of the world at a wall's end")
-    edge = next(e for e in matched.truth.edges if e.target == goal)
-    places = {v.id: v.position or (0.0, 0.0) for v in matched.truth.vertices}
-    x, y = places[goal]
-    r0 = (matched.chart.parameters or Parameters()).r0
-    back = min(r0 + RUN_UP, 0.6 * edge.fused.value)
-    heading = axis_near(edge.source_exit)
-    along = (1, 0, -1, 0)[quarter_of(heading)], (0, 1, 0, -1)[quarter_of(heading)]
-    return Pose(x - back * along[0], y - back * along[1], heading), wall
 
 
 def _is_at(matched: Matched, robot: Body, vertex: int) -> bool:

@@ -53,9 +53,11 @@ class Step:
                 f"{self.source} -> {self.target}: turn to {degrees}, move "
                 f"{self.edge.reach:.2f} m to the wall, follow it {beside:.2f} m"
             )
+        what = f"{self.source} -> {self.target}: {self.edge.behaviour} {length}"
+        if self.edge.behaviour != "WF":
+            return f"{what} to {degrees}"
         side = "right" if self.is_forward else "left"
-        what = f"{self.edge.behaviour} {length} to {degrees}"
-        return f"{self.source} -> {self.target}: {what}, wall on the {side}"
+        return f"{what} to {degrees}, wall on the {side}"
 
 
 class _Priced(NamedTuple):
