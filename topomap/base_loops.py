@@ -117,9 +117,32 @@ def _fold(
     for k, arrival in enumerate(arrivals):
         quarters = likeliest[k % period].ways.index(Way.WALL_RIGHT)
         end = numbers[k % period], quarters
-        link = chart.links.get(end)
-        if link is None:
+        if end not in chart.links:
             there = numbers[(k + 1) % period], (quarters + 2) % 4
-            link = chart.add_link(end, there, "WF")
-        link.measure(arrival)
+            if there in chart.links:
+                _join_walked(found, there, end[0], likeliest[len(arrivals) % period])
+            else:
+                chart.add_link(end, there, "WF")
+        chart.links[end].measure(arrival)
     found.here = numbers[len(arrivals) % period]
+
+
+def _join_walked(
+    found: Exploration, there: tuple[int, int], vertex: int, standing: Place
+) -> None:
+    """Join a vertex of a new loop to one that was come to before, the other way round.
+
+    A robot that wanted to know whether two places are one may have walked a wall of
+    this loop already, with the wall on its left.
+    """
+    chart = found.chart
+    before, _ = chart.links[there].beyond(there)
+    pairs = chart.pairs(before, vertex)
+    if pairs is None:
+        found.refuted.append(
+            f"the loop walked from vertex {there[0]} does not fit the wall that leads "
+            f"there from vertex {before}"
+        )
+        found.begin_anew(standing)
+        raise RefutedError(found.refuted[-1])
+    chart.join(pairs)

@@ -10,6 +10,7 @@ import shapely
 
 from behaviours.vertices import VertexType
 from topomap.hall_cells import Junction, Wall
+from topomap.hall_junctions import Terminal, junction_sides
 from topomap.headings import AHEAD, angle_of
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 from worlds.errors import WorldError
@@ -128,12 +129,9 @@ def draw_halls(
     Raises
     ------
     WorldError
-        If two halls leave a junction to the same side, or those that meet are so
-        much off each other's middle that the junction is wider than 2 r0.
+        As `topomap.hall_junctions.junction_sides` does, or if vertices are too near.
     """
-    for box in parts.junctions:
-        _check_size(box, 2 * drawing.parameters.r0)
-    sides = _sides(parts)
+    sides = junction_sides(parts, drawing.parameters)
     exits = [
         {q for q in sides[n] if _is_hall(drawing.parameters, free, box, q)}
         for n, box in enumerate(parts.junctions)
@@ -151,65 +149,12 @@ def draw_halls(
                 continue
             last, last_end = _follow(parts, sides, numbers, n, end)
             done |= {(n, end), (last, last_end)}
-            first_end = _Terminal(stretch, end)
-            second_end = _Terminal(parts.stretches[last], last_end)
+            first_end = Terminal(stretch, end)
+            second_end = Terminal(parts.stretches[last], last_end)
             source = _draw_end(drawing, first_end, numbers, mouths)
             target = _draw_end(drawing, second_end, numbers, mouths)
             drawing.link(source, target, (first_end.outward + 2) % 4, "HF")
     return mouths
-
-
-@dataclass(frozen=True, slots=True)
-class _Terminal:
-    """One end of a stretch."""
-
-    stretch: Stretch
-    end: int
-
-    @property
-    def outward(self) -> int:
-        """The direction out of the stretch at this end, in quarter turns."""
-        return self.stretch.axis + (0 if self.end else 2)
-
-    @property
-    def width(self) -> float:
-        """Of the hall here, in metres."""
-        _, low, high = self.stretch.high if self.end else self.stretch.low
-        return high - low
-
-    def place(self, inside: float = 0.0) -> tuple[float, float]:
-        """Return a point on the middle line, so far from the end."""
-        along, low, high = self.stretch.high if self.end else self.stretch.low
-        along += -inside if self.end else inside
-        across = (low + high) / 2
-        return (along, across) if self.stretch.axis == 0 else (across, along)
-
-
-def _check_size(box: tuple[float, float, float, float], most: float) -> None:
-    size = max(box[2] - box[0], box[3] - box[1])
-    if size > most + ROUNDING:
-        raise WorldError(
-            f"junction at ({(box[0] + box[2]) / 2:.4g}, {(box[1] + box[3]) / 2:.4g})",
-            f"{size:.4g} m wide; expected at most {most:.4g} m, twice r0",
-        )
-
-
-def _sides(parts: HallParts) -> list[dict[int, tuple[int, int]]]:
-    """Return for each junction the stretch, and which end of it, on each side."""
-    sides: list[dict[int, tuple[int, int]]] = [{} for _ in parts.junctions]
-    for n, stretch in enumerate(parts.stretches):
-        for end in (0, 1):
-            at = stretch.ends[end]
-            if isinstance(at, Junction):
-                side = (_Terminal(stretch, end).outward + 2) % 4
-                if side in sides[at.number]:
-                    x, y = _Terminal(stretch, end).place()
-                    raise WorldError(
-                        f"hall at ({x:.4g}, {y:.4g})",
-                        "two halls leave a junction to the same side",
-                    )
-                sides[at.number][side] = n, end
-    return sides
 
 
 def _is_hall(
@@ -247,7 +192,7 @@ def _is_pocket(stretch: Stretch, exits: list[set[int]]) -> bool:
     for end in (0, 1):
         at = stretch.ends[end]
         if isinstance(at, Junction):
-            side = (_Terminal(stretch, end).outward + 2) % 4
+            side = (Terminal(stretch, end).outward + 2) % 4
             if side not in exits[at.number]:
                 return True
     return False
@@ -265,13 +210,13 @@ def _follow(
         far = parts.stretches[stretch].ends[1 - end]
         if not isinstance(far, Junction) or not _passes(far, numbers):
             return stretch, 1 - end
-        onward = _Terminal(parts.stretches[stretch], 1 - end).outward
+        onward = Terminal(parts.stretches[stretch], 1 - end).outward
         stretch, end = sides[far.number][onward]
 
 
 def _draw_end(
     drawing: Drawing,
-    terminal: _Terminal,
+    terminal: Terminal,
     numbers: list[int | None],
     mouths: list[Mouth],
 ) -> int:

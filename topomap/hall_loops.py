@@ -157,25 +157,23 @@ def attach(mouth: Mouth, loops: list[list[Corner]], parameters: Parameters) -> C
             for way, corner in ((behind, before), (ahead, after)):
                 if abs(mouth.width / 2 - way - r0) > ROUNDING or way > ROUNDING:
                     continue
-                if corner.is_inner and not corner.is_kept:
-                    # The wall steps back at the opening's end, or forth at its
-                    # beginning.
-                    if corner is after:
-                        return _insert(loop, k + 1, mouth, (x, y))
-                    step = loop[k - 1]
-                    nearer = c * (step.x - x) + s * (step.y - y)
-                    place = x + c * nearer, y + s * nearer
-                    return _insert(loop, (k - 1) % len(loop), mouth, place)
-                if corner.is_inner and not corner.halls:
+                if not corner.is_inner:
+                    continue
+                if corner.halls:
+                    raise WorldError(
+                        mouth.name, "another hall opens at the same inner corner"
+                    )
+                if corner.is_kept:
                     corner.halls.append((mouth.out + 2) % 4)
                     return corner
-                raise WorldError(
-                    mouth.name,
-                    "another hall opens at the same inner corner"
-                    if corner.is_inner
-                    else "is at an outer corner; expected a straight wall there, or "
-                    "an inner corner",
-                )
+                # The wall steps: towards the robot where the opening ends, or away
+                # from it where it begins.
+                if corner is after:
+                    return _insert(loop, k + 1, mouth, (x, y))
+                step = loop[k - 1]
+                nearer = c * (step.x - x) + s * (step.y - y)
+                place = x + c * nearer, y + s * nearer
+                return _insert(loop, (k - 1) % len(loop), mouth, place)
     raise WorldError(
         mouth.name,
         f"expected an opening at an inner corner, or {r0:g} m and more from it, in a "

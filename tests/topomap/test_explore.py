@@ -30,7 +30,7 @@ from worlds.world import make_world
 
 ROBOT = Parameters()
 SEEDS = st.integers(0, 2**32 - 1)
-KINDS = st.sampled_from(["rooms", "halls", "maze", "office"])
+KINDS = st.sampled_from(["rooms", "halls", "maze", "office", "hospital"])
 SETTINGS = settings(max_examples=8, deadline=None)
 
 
@@ -78,13 +78,21 @@ def test_with_noise_places_are_recognised(seed):
     assert all(0 <= p <= 1 for r in built.recognitions for _, p in r.candidates)
 
 
-def test_the_same_seed_gives_the_same_bits():
+@settings(max_examples=4, deadline=None)
+@given(kind=KINDS, seed=SEEDS)
+def test_the_same_seed_gives_the_same_bits(kind, seed):
     one, other = (
-        build_map(a_world("halls", 5), np.random.default_rng(5), sigma=0.1)
+        build_map(a_world(kind, seed), np.random.default_rng(seed), sigma=0.1)
         for _ in range(2)
     )
     assert one.map == other.map
     assert one.travelled == other.travelled
+    assert one.recognitions == other.recognitions
+
+
+def test_a_wall_walked_backwards_before_its_loop_is_not_put_in_twice():
+    built = build_map(a_world("maze", 1), np.random.default_rng(1), sigma=0.1)
+    assert built.correct
 
 
 @SETTINGS
