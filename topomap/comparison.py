@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
 from merge.rigid import AmbiguousRotationError, RigidTransform, register_rigid
 from topomap.embedding import embedded
-from topomap.topological_map import TopologicalMap, Vertex, same_direction
+from topomap.isomorphism import TOLERANCE, ExitTable, agreeing_parts, whole_matches
+from topomap.topological_map import TopologicalMap
 
-__all__ = ["Comparison", "best_motion", "compare_maps", "isomorphisms"]
-
-TOLERANCE = math.radians(10)
-"""Exits that differ by less, after the maps are turned, can be the same."""
+__all__ = ["Comparison", "best_motion", "compare_maps"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,51 +90,11 @@ def compare_maps(
     return min(found, key=_rank)
 
 
-def isomorphisms(
-    chart: TopologicalMap,
-    reference: TopologicalMap,
-    rotation: float | None = None,
-    tolerance: float = TOLERANCE,
-) -> list[dict[int, int]]:
-    """Return all ways in which two connected maps are the same, as matched ids.
-
-    Parameters
-    ----------
-    chart, reference : TopologicalMap
-        Compared by types, exits and edges.
-    rotation : float, optional
-        Only those that turn the map by so much, in radians.
-    tolerance : float
-        By how much exits, and the rotation, may differ, in radians.
-
-    Returns
-    -------
-    list of dict of int to int
-        Vertex ids of the map to those of the reference.
-    """
-    a, b = _Ways(chart), _Ways(reference)
-    return [
-        pairs
-        for pairs in _isomorphisms(a, b, tolerance)
-        if rotation is None or _turns_by(a, b, pairs, rotation, tolerance)
-    ]
-
-
 def best_motion(
     pairs: dict[int, int], chart: TopologicalMap, reference: TopologicalMap
 ) -> tuple[RigidTransform, float]:
     """Return the motion that lays matched vertices nearest, and the rmse left."""
     return _best_motion(pairs, _places(chart), _places(reference))
-
-
-def _turns_by(
-    a: _Ways, b: _Ways, pairs: dict[int, int], rotation: float, tolerance: float
-) -> bool:
-    """Tell whether all matched vertices agree when turned by a rotation."""
-    return all(
-        _agree(a.vertices[i], b.vertices[j], rotation, tolerance)
-        for i, j in pairs.items()
-    )
 
 
 def _rank(found: Comparison) -> tuple[bool, int, float]:
@@ -149,12 +105,12 @@ def _rank(found: Comparison) -> tuple[bool, int, float]:
 def _compare(
     chart: TopologicalMap, reference: TopologicalMap, tolerance: float
 ) -> Comparison:
-    a, b = _Ways(chart), _Ways(reference)
+    a, b = ExitTable(chart), ExitTable(reference)
     places = _places(chart), _places(reference)
-    found = list(_isomorphisms(a, b, tolerance))
+    found = list(whole_matches(a, b, tolerance))
     is_same = bool(found)
     if not found:
-        parts = _agreeing_parts(a, b, tolerance)
+        parts = agreeing_parts(a, b, tolerance)
         size = max(map(len, parts), default=0)
         found = [pairs for pairs in parts if len(pairs) == size]
     ranked = [(*_best_motion(pairs, *places), pairs) for pairs in found]
@@ -168,126 +124,6 @@ def _compare(
         offset=None if motion is None else (motion.x, motion.y),
         pairs=tuple(sorted(best.items())),
     )
-
-
-class _Ways:
-    """A map by its exits: where each exit of each vertex leads."""
-
-    def __init__(self, chart: TopologicalMap) -> None:
-        edges = [edge for edge in chart.edges if not edge.is_incursion]
-        self.edges = len(edges)
-        self.vertices = {vertex.id: vertex for vertex in chart.vertices}
-        self.leads: dict[int, list[tuple[float, int]]] = {v: [] for v in self.vertices}
-        for edge in edges:
-            self.leads[edge.source].append((edge.source_exit, edge.target))
-            self.leads[edge.target].append((edge.target_exit, edge.source))
-
-
-def _isomorphisms(a: _Ways, b: _Ways, tolerance: float) -> Iterator[dict[int, int]]:
-    """Yield all matches of the whole of one map with the whole of the other.
-
-    Each contains the first vertex of `b`, and grows from there.
-    """
-    if len(a.vertices) != len(b.vertices) or a.edges != b.edges or not b.vertices:
-        return
-    q = next(iter(b.vertices.values()))
-    for p in a.vertices.values():
-        for rotation in _rotations(p, q, tolerance):
-            pairs, agrees = _grow(a, b, p.id, q.id, rotation, tolerance, strict=True)
-            if agrees and len(pairs) == len(a.vertices):
-                yield pairs
-
-
-def _agreeing_parts(a: _Ways, b: _Ways, tolerance: float) -> list[dict[int, int]]:
-    """Return the maximal connected matches, each grown from its first pair."""
-    done: set[tuple[int, int, int]] = set()
-    parts = []
-    for q in b.vertices.values():
-        for p in a.vertices.values():
-            for rotation in _rotations(p, q, tolerance):
-                degrees = round(math.degrees(rotation)) % 360
-                if (p.id, q.id, degrees) in done:
-                    continue
-                pairs, _ = _grow(a, b, p.id, q.id, rotation, tolerance)
-                done |= {(i, j, degrees) for i, j in pairs.items()}
-                parts.append(pairs)
-    return parts
-
-
-def _rotations(p: Vertex, q: Vertex, tolerance: float) -> list[float]:
-    """Return the rotations that lay the exits of `p` over those of `q`."""
-    if p.type is not q.type or len(p.exits) != len(q.exits):
-        return []
-    if not q.exits:
-        return [0.0]
-    turns = [math.remainder(q.exits[0] - exit_, math.tau) for exit_ in p.exits]
-    return [turn for turn in turns if _agree(p, q, turn, tolerance)]
-
-
-def _agree(p: Vertex, q: Vertex, rotation: float, tolerance: float) -> bool:
-    """Tell whether two vertices are the same, one turned."""
-    return (
-        p.type is q.type
-        and _laid_over(p.exits, q.exits, rotation, tolerance)
-        and _laid_over(p.unexplored, q.unexplored, rotation, tolerance)
-    )
-
-
-def _laid_over(
-    mine: tuple[float, ...],
-    theirs: tuple[float, ...],
-    rotation: float,
-    tolerance: float,
-) -> bool:
-    """Tell whether one set of directions, turned, is the other."""
-    if len(mine) != len(theirs):
-        return False
-    for direction in mine:
-        turned = direction + rotation
-        if not any(same_direction(turned, other, tolerance) for other in theirs):
-            return False
-    return True
-
-
-def _grow(
-    a: _Ways,
-    b: _Ways,
-    p: int,
-    q: int,
-    rotation: float,
-    tolerance: float,
-    *,
-    strict: bool = False,
-) -> tuple[dict[int, int], bool]:
-    """Match outwards from one pair; return the pairs and whether all agreed.
-
-    A disagreement bounds the match there; a strict one ends at the first.
-    """
-    pairs, taken, agrees = {p: q}, {q}, True
-    todo = [(p, q)]
-    while todo and (agrees or not strict):
-        i, j = todo.pop()
-        for direction, neighbour in a.leads[i]:
-            there = _follow(b, j, direction + rotation, tolerance)
-            if there is None:
-                agrees = False
-            elif neighbour in pairs or there in taken:
-                agrees &= pairs.get(neighbour) == there
-            elif _agree(a.vertices[neighbour], b.vertices[there], rotation, tolerance):
-                pairs[neighbour] = there
-                taken.add(there)
-                todo.append((neighbour, there))
-            else:
-                agrees = False
-    return pairs, agrees
-
-
-def _follow(ways: _Ways, vertex: int, direction: float, tolerance: float) -> int | None:
-    """Return where the exit in a direction leads; None if no edge does."""
-    for exit_, neighbour in ways.leads[vertex]:
-        if same_direction(exit_, direction, tolerance):
-            return neighbour
-    return None
 
 
 def _places(chart: TopologicalMap) -> dict[int, tuple[float, float]]:

@@ -15,6 +15,7 @@ from merge.fleet import Fleet, Group, merge_fleet
 from merge.graph import Graph
 from merge.options import Options
 from merge.rigid import RigidTransform, register_rigid
+from topomap.directions import same_direction
 from topomap.embedding import EXACT
 from topomap.errors import InputError
 from topomap.parts import base_map
@@ -23,7 +24,6 @@ from topomap.topological_map import (
     Length,
     TopologicalMap,
     Vertex,
-    same_direction,
 )
 
 if TYPE_CHECKING:

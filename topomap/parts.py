@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from behaviours.vertices import VertexType
-from topomap.comparison import Comparison, best_motion, compare_maps, isomorphisms
+from topomap.comparison import Comparison, best_motion, compare_maps
+from topomap.isomorphism import isomorphisms
 from topomap.topological_map import Edge, TopologicalMap, Vertex
 
 if TYPE_CHECKING:

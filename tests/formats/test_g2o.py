@@ -13,12 +13,13 @@ from behaviours import Parameters, VertexType
 from tests.formats.pose_graphs import trip
 from tests.strategies import charts, random_worlds, seeds
 from topomap import InputError
+from topomap.directions import same_direction
 from topomap.embedding import embed
 from topomap.formats.g2o import load_g2o, save_g2o
 from topomap.formats.pose_maps import map_of_poses, poses_of
 from topomap.pose_graph import chi2
 from topomap.pose_optimisation import optimise_poses
-from topomap.topological_map import Length, same_direction
+from topomap.topological_map import Length
 from topomap.truth import true_map
 
 DATA = Path(os.environ.get("TOPOMAP_DATA", Path(__file__).parents[3] / "shared/data"))

@@ -8,7 +8,7 @@ import pytest
 
 from behaviours import Parameters, VertexType
 from topomap.comparison import compare_maps
-from topomap.topological_map import same_direction
+from topomap.directions import same_direction
 from topomap.truth import true_map
 
 ROBOT = Parameters()

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import worlds
 from behaviours import Parameters
 from topomap import InputError, build_map, load_map, save_map
-from topomap.topological_map import same_direction
+from topomap.directions import same_direction
 from topomap.truth import true_map
 
 BUILT = build_map(

@@ -12,7 +12,7 @@ from behaviours import Parameters
 from topomap import InputError, JobError, build_map
 from topomap.bodies import body_parameters
 from topomap.closers import CLOSINGS, make_closer
-from topomap.topological_map import same_direction
+from topomap.directions import same_direction
 from worlds.errors import WorldError
 from worlds.pose import Pose
 from worlds.world import make_world

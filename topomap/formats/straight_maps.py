@@ -8,12 +8,12 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from behaviours.vertices import VertexType
+from topomap.directions import same_direction
 from topomap.topological_map import (
     Edge,
     Length,
     TopologicalMap,
     Vertex,
-    same_direction,
 )
 
 __all__ = ["StraightMap", "Way", "straight_map"]

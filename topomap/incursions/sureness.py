@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from topomap.directions import same_direction
 from topomap.errors import JobError
 from topomap.incursions.candidates import landing_limits
-from topomap.topological_map import same_direction
 
 if TYPE_CHECKING:
     import networkx as nx

@@ -12,9 +12,9 @@ from behaviours.follow_wall import follow_wall
 from behaviours.mirror import mirrored
 from behaviours.port import Side
 from behaviours.vertices import VertexType
+from topomap.directions import same_direction
 from topomap.errors import JobError
 from topomap.incursions.crossing import face
-from topomap.topological_map import same_direction
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
