@@ -8,6 +8,8 @@ table C.10 of [K]_:
 | T | done | AF |
 | T_AT_WALL | done | AL |
 | AL | done | AF |
+| AL | receded | AF_BESIDE |
+| AF_BESIDE | seen | AL |
 | AF | narrowed | CN |
 | CN | done | RET |
 
@@ -17,7 +19,9 @@ in their middle, and looks along them. Arguments: X; none if the hall is ahead.
 Returns the way into the hall, along it and to the left.
 
 Where the hall opens at a corner, r0 from its one wall may be too near to its other:
-the robot first stands r_w from the corner's wall (AL), where every hall is free.
+the robot first stands r_w from the corner's wall (AL), where every hall is free. That
+wall may begin a little ahead, where a mouth's two edges are not across from each
+other (AF_BESIDE).
 
 Differs from the source, which returns r_w: the hall's width is in the readings,
 and the way is what the map needs.
@@ -34,7 +38,7 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
-from behaviours.conditions import done, narrowed
+from behaviours.conditions import done, narrowed, receded, seen
 from behaviours.port import (
     Align,
     Approach,
@@ -61,6 +65,8 @@ class State(Enum):
     T_AT_WALL = auto()
     """Towards a hall that begins at a corner."""
     AL = auto()
+    AF_BESIDE = auto()
+    """Forward until the corner's wall is beside."""
     AF = auto()
     """Forward until both of the hall's walls have begun."""
     CN = auto()
@@ -73,6 +79,8 @@ ENTER = Automaton((State.T, State.T_AT_WALL, State.AL, State.AF), (
     Row(State.T,         done,     State.AF),
     Row(State.T_AT_WALL, done,     State.AL),
     Row(State.AL,        done,     State.AF),
+    Row(State.AL,        receded,  State.AF_BESIDE),
+    Row(State.AF_BESIDE, seen,     State.AL),
     Row(State.AF,        narrowed, State.CN),
     Row(State.CN,        done,     State.RET),
 ), (State.RET,))
@@ -116,6 +124,12 @@ def enter(
         actions[State.T] = actions[State.T_AT_WALL] = Turn(side)
     if wall is not None:
         actions[State.AL] = Align(wall, parameters.r_w)
+        actions[State.AF_BESIDE] = Approach(
+            (Sensor.of_side(wall),),
+            within=parameters.r_max,
+            keep=parameters.r_min,
+            limit=2 * parameters.r0,
+        )
     start = {
         (False, False): State.AF,
         (False, True): State.AL,

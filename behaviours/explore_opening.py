@@ -23,7 +23,8 @@ far side as well (END): then the opening is flush with a corner. The drive has
 stages, that end where what is then found means something else: at 2 r_w, less than
 which is too narrow, at 2 r0, more than which is open space, and where a wall ahead
 would be so far away. So errors of odometry do not decide what was found; where the
-body itself drives by its odometry, openings of 2 r_w and 2 r0 are given a tolerance.
+body itself drives by its odometry, openings of 2 r_w and 2 r0 are given the doubt of
+the robot's `Parameters`.
 
 References
 ----------
@@ -45,11 +46,6 @@ if TYPE_CHECKING:
     from behaviours.parameters import Parameters
 
 __all__ = ["EXPLORE_OPENING", "Opening", "State", "explore_opening"]
-
-
-TOLERANCE = 0.12
-"""An opening may be narrower than 2 r_w, or wider than 2 r0, by this part of it, and
-still count as a hall's: so far may odometry be off where a robot's width counts."""
 
 
 class State(Enum):
@@ -144,9 +140,9 @@ def explore_opening(
         From the running coroutine, if the body bumps or is stuck.
     """
     in_hall = otherwise is VertexType.PORTAL
-    most = 2 * parameters.r0 * (1 + TOLERANCE)
+    most = 2 * parameters.r0 * (1 + parameters.doubt)
     keep = parameters.r_min if in_hall else parameters.r0
-    least = 2 * parameters.r_w * (1 - TOLERANCE)
+    least = 2 * parameters.r_w * (1 - parameters.doubt)
     drive = Approach(
         (Sensor.LEFT, Sensor.RIGHT) if in_hall else (Sensor.of_side(side),),
         within=2 * parameters.r0 if in_hall else parameters.r_max,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 __all__ = ["Parameters"]
 
@@ -16,7 +16,7 @@ class Parameters:
     ------
     ValueError
         If the lengths are not finite or not ``0 < r_min < r0 < r_max`` and
-        ``0 < r_w <= r0``.
+        ``0 < r_w <= r0``, or the doubt is not from 0 to below 1.
 
     Examples
     --------
@@ -35,6 +35,10 @@ class Parameters:
     """Farthest that a followed wall may be, in metres: the safe zone ends."""
     r_w: float = 0.2
     """Least half-width, in metres, of a hall that the robot enters."""
+    doubt: float = field(default=0.12, compare=False)
+    """An opening may seem narrower than 2 r_w, or wider than 2 r0, by this part of it
+    and still count as a hall's: so far may odometry be off over so short a way, twice
+    its usual sigma. Not of table C.1, and no part of map files."""
 
     def __post_init__(self) -> None:
         lengths = self.r0, self.r_min, self.r_max, self.r_w
@@ -49,6 +53,8 @@ class Parameters:
             raise ValueError(
                 f"0 < r_w <= r0 must hold; got r_w={self.r_w}, r0={self.r0}"
             )
+        if not 0 <= self.doubt < 1:
+            raise ValueError(f"0 <= doubt < 1 must hold; got {self.doubt}")
 
     @property
     def least_recess(self) -> float:

@@ -61,10 +61,20 @@ def travel(
     for side in TURNS[quarters % 4]:
         yield Turn(side)
     if way in WALLS:
-        return (yield from follow_broken_wall(parameters, place, WALLS[way]))
+        wall = WALLS[way]
+        if place is VertexType.SPLIT and not _is_hall_beside(ways, quarters, wall):
+            # The hall is in the corner's other wall: this one has no opening here.
+            place = VertexType.INT
+        return (yield from follow_broken_wall(parameters, place, wall))
     if way is Way.OUT:
         return (yield from leave_hall(parameters))
     return (yield from follow_hall(parameters))
+
+
+def _is_hall_beside(ways: Ways, quarters: int, wall: Side) -> bool:
+    """Return whether a hall is on the wall's side of who looks along the wall."""
+    _, left, _, right = turned(ways, quarters)
+    return (left if wall is Side.LEFT else right) is Way.HALL
 
 
 def _into_hall(parameters: Parameters, ways: Ways, quarters: int) -> Behaviour[Arrival]:

@@ -25,6 +25,10 @@ from topomap.boundary import map_boundary
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.drawing import draw_world
+from topomap.experiments.catalogue import find
+from topomap.experiments.experiment import run_task, tasks_of
+from topomap.experiments.reliability import fill_reliability
+from topomap.experiments.reporting import sums
 from topomap.folding import fold
 from topomap.map_drawing import draw_map
 from topomap.mapping import build_map
@@ -56,6 +60,7 @@ SPIRAL = make_world(
     name="spiral",
 )
 ROBOT = Parameters()
+RELIABILITY_TRIALS = 200
 
 
 def build(world: World, start: Pose, sigma: float, seed: int) -> Figure:
@@ -181,6 +186,16 @@ def incursions(world: World, sigma: float, seed: int) -> Figure:
     return figure
 
 
+def reliability() -> Figure:
+    """Draw how often closures are wrong over how often they are said to be."""
+    experiment = find("closing-reliability")
+    tasks = tasks_of(experiment, RELIABILITY_TRIALS, seed=0)
+    figure = Figure(layout="constrained")
+    cells = sums({task: run_task(experiment, task) for task in tasks})
+    fill_reliability(figure, experiment, cells)
+    return figure
+
+
 FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
     "map": (
         "A flat, mapped by a robot that follows its walls at 0.3 m and whose lengths "
@@ -192,6 +207,13 @@ FIGURES: dict[str, tuple[str, Callable[[], Figure]]] = {
         "A spiral, with lengths off by 10 %: many corners look alike, and only the "
         "lengths tell that the robot has come round.",
         lambda: build(SPIRAL, Pose(7.0, 3.0, math.pi / 2), 0.10, 5),
+    ),
+    "reliability": (
+        "How often loops are closed wrongly, over the error that was stated: on the "
+        "diagonal a rule is as often wrong as it says. A triangle is where the true "
+        "share may reach though no closure was wrong. `reproduce closing-reliability` "
+        f"draws it with more than these {RELIABILITY_TRIALS} walks a point.",
+        reliability,
     ),
     "truth": (
         "What every map is held to: the true map of each ring, from geometry alone.",

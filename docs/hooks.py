@@ -19,6 +19,7 @@ from latex2mathml.converter import convert
 from markdown import Extension
 from markdown.inlinepatterns import InlineProcessor
 from markdown.preprocessors import Preprocessor
+from measured_pictures import measured
 from mkdocs.structure.files import File
 from notebooks import executed, page_of
 
@@ -98,6 +99,7 @@ GENERATORS: tuple[Callable[[], Iterator[tuple[str, str | bytes]]], ...] = (
     reference,
     gallery,
     automata_page,
+    measured,
     notebooks,
 )
 

@@ -18,8 +18,9 @@ Sigma is one of five values about the given one, weighed by the same data; a len
 may be an outlier, and a corner be seen wrong. A period is accepted when its posterior
 leaves less than `epsilon`, and more walls have repeated than the longest run that
 starts at v_0 and was met elsewhere; nothing is accepted on rows of equal things
-before their end has been seen twice. At any later time a posterior below one half
-takes the closure back.
+before their end has been seen twice; and where corners may be missed, invented or seen
+wrong, not before the walls were met again on which that would go unnoticed. At any
+later time a posterior below one half takes the closure back.
 """
 
 from __future__ import annotations
@@ -43,7 +44,7 @@ __all__ = ["LikelihoodCloser", "LikelihoodRule", "later_rule"]
 LEAST_SHOWN = 1e-9
 """Hypotheses of a smaller posterior are kept, and not reported."""
 
-SLIP = 0.01
+SPOILT = 0.01
 """Prior probability that a loop from v_0 is spoilt by a corner badly seen."""
 BOLDEST = 1e-4
 """Largest epsilon for a later start, whatever is asked of v_0."""
@@ -56,8 +57,8 @@ class LikelihoodRule:
     Raises
     ------
     ValueError
-        If `epsilon`, `hazard`, `outlier` or `misseen` is not in (0, 1), `doubt` is
-        negative or not finite, or `r_star` is not above 0.
+        If `epsilon`, `hazard`, `outlier` or `misseen` is not in (0, 1), `slip` is not
+        in [0, 1), `doubt` is negative or not finite, or `r_star` is not above 0.
     """
 
     epsilon: float = 1e-4
@@ -79,8 +80,14 @@ class LikelihoodRule:
 
     Five values are weighed, from half to twice the given one.
     """
-    slips: bool = True
-    """Whether the loop may begin at a later vertex, where one was missed before."""
+    slip: float = 1 / 200
+    """How often a corner is missed, invented or seen wrong; 0 if never.
+
+    A slip on a wall that was met once goes unnoticed, so it is part of the error that
+    must be below `epsilon`: with the default of 1 in 200 every wall is met twice. With
+    0 the loop is closed as soon as its length is known. Above 0 it may begin at a
+    later vertex, too, where one was missed before.
+    """
     r_star: float = 0.25
     """Least distance, in metres, of two equal vertices: `least_distance`."""
 
@@ -89,6 +96,8 @@ class LikelihoodRule:
             value = getattr(self, name)
             if not 0 < value < 1:
                 raise ValueError(f"{name} must be in (0, 1); got {value}")
+        if not 0 <= self.slip < 1:
+            raise ValueError(f"slip must be in [0, 1); got {self.slip}")
         if not 0 <= self.doubt < math.inf:
             raise ValueError(f"doubt must be finite and not negative; got {self.doubt}")
         if not 0 < self.r_star < math.inf:
@@ -105,6 +114,7 @@ class LikelihoodRule:
                 self.misseen,
                 self.r_star,
                 float(self.full_lap),
+                self.slip,
             ]
         )
 
@@ -121,7 +131,7 @@ def later_rule(rule: LikelihoodRule) -> LikelihoodRule:
     Every wall must be met twice, and the error be smaller by the odds that there was
     a reason to begin anew: many starts have many chances of being deceived.
     """
-    epsilon = SLIP * min(rule.epsilon, BOLDEST)
+    epsilon = SPOILT * min(rule.epsilon, BOLDEST)
     return replace(rule, full_lap=True, epsilon=epsilon)
 
 
@@ -145,9 +155,9 @@ class LikelihoodCloser:
     A corner whose type alone differs is taken for badly seen (`misseen`); one whose
     turn differs refutes. Missed or invented vertices shift the count: the closure is
     then refuted. So the test is begun anew at later vertices too (`later_starts`),
-    where it asks for a full lap; `Decision.start` says where the loop begins. Only if
-    no wall from the slip on was met again before v_0 was accepted, it goes unnoticed:
-    `full_lap` excludes that.
+    where it asks for a full lap; `Decision.start` says where the loop begins. Only on a
+    wall that was not met again before v_0 was accepted, a slip goes unnoticed:
+    `LikelihoodRule.slip` keeps the probability of that below `epsilon`.
 
     Of the shifts of walls only the way around makes use.
 
@@ -158,7 +168,7 @@ class LikelihoodCloser:
     >>> closer = LikelihoodCloser(RelativeError(0.05))
     >>> closer.begin("INT", math.pi / 2)
     >>> lap = [(6.1, 1), (2.0, 1), (2.4, -1), (3.9, 1), (3.5, 1), (5.8, 1)]
-    >>> for length, turn in lap + lap[:5]:
+    >>> for length, turn in lap + lap:
     ...     kind = "INT" if turn > 0 else "EXT"
     ...     decision = closer.observe(Wall(length, kind, turn * math.pi / 2))
     >>> decision.period, decision.error_probability < 1e-4
@@ -197,7 +207,7 @@ class LikelihoodCloser:
                 step(track, wall.length, wall.shift, symbol, wall.turn)
             )
         self._walls += 1
-        if self.rule.slips and self._walls in later_starts(self._walls + 1):
+        if self.rule.slip > 0 and self._walls in later_starts(self._walls + 1):
             self._start(later_rule(self.rule), symbol)
         accepted = min((s for s, k in periods.items() if k), default=0)
         return _decision(self._tracks[accepted], periods[accepted], accepted)
@@ -240,11 +250,20 @@ def _decision(track: Track, period: int, start: int) -> Decision:
         note += f", those before v_{start} left out" if start else ""
     elif guarded:
         note = f", but {guarded} walls must repeat first"
+    slip = _unnoticed(track, seen, chosen.period)
     reason = (
         f"after {walls} walls the loop {verb} {chosen.period}: "
         f"posterior error {chosen.incorrect:.2g}{note}"
     )
-    return Decision(period or None, chosen.incorrect, hypotheses, reason, start)
+    error = min(chosen.incorrect + slip, 1.0)
+    return Decision(period or None, error, hypotheses, reason, start)
+
+
+def _unnoticed(track: Track, walls: int, period: int) -> float:
+    """Return the probability of a slip on a wall of the loop that was met once."""
+    from evidence.tracking import SLIP
+
+    return float(track.rule[SLIP]) * max(2 * period - walls, 0)
 
 
 def _checked(track: Track, walls: int, period: int) -> str:

@@ -47,7 +47,7 @@ ROOT_TWO_PI = math.sqrt(2 * math.pi)
 FULL_TURN = 2 * math.pi
 
 # Track.rule
-SIGMA, EPSILON, HAZARD, OUTLIER, MISSEEN, R_STAR, FULL_LAP = range(7)
+SIGMA, EPSILON, HAZARD, OUTLIER, MISSEEN, R_STAR, FULL_LAP, SLIP = range(8)
 # Track.state
 WALLS, LIVE, ACCEPTED, GUARDED = range(4)
 # Track.learned
@@ -566,9 +566,15 @@ def _accept(track: Track, n: int) -> int:
     track.state[GUARDED] = 0
     if best >= 0 and track.state[ACCEPTED] == 0:
         k = track.period[best]
-        if 1.0 - track.weight[best, POSTERIOR] < track.rule[EPSILON]:
-            needed = max(_guard(track, n, k), _disputed(track, n, k))
-            if n - k >= needed or _certain(track, n, k):
+        left = track.rule[EPSILON] - (1.0 - track.weight[best, POSTERIOR])
+        if left > 0.0:
+            needed = 0
+            if not _certain(track, n, k):
+                needed = max(_guard(track, n, k), _disputed(track, n, k))
+            if track.rule[SLIP] * k > left:
+                # As many walls may be met once as a slip there is likely enough not.
+                needed = max(needed, k - int(left / track.rule[SLIP]))
+            if n - k >= needed:
                 track.state[ACCEPTED] = k
             else:
                 track.state[GUARDED] = needed

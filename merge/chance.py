@@ -30,17 +30,19 @@ def false_merge_probability(
     rivals : sequence of float
         The same for the other overlays.
     trials : float
-        Number of ways to lay one vertex of a map on one of the other, at least 1.
+        Number of overlays that are as likely beforehand, at least 1: the compatible
+        pairs of vertices, divided by how many of them the best overlay has.
 
     Returns
     -------
     float
-        In [1e-9, 1]. Near 1/2 when two overlays are equally good, as in a symmetric
+        In [1e-9, 1]; an upper bound where the rivals were favoured by `by_luck`.
+        Near 1/2 when two overlays are equally good, as in a symmetric
         building; near 1 when the best is what chance brings.
 
     Notes
     -----
-    Each of the N ways is as likely as the others beforehand, and all together as
+    Each of the N overlays is as likely as the others beforehand, and all together as
     likely as no overlap. Then Bayes' rule gives
     :math:`p = 1 - e^{s_1} / (N + \sum_k e^{s_k})`.
 

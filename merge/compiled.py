@@ -10,7 +10,12 @@ from typing import Any
 __all__ = ["compiled_grow_all"]
 
 FUNCTIONS = {
-    "merge.exits_kernel": ("rotate", "correspond", "lengths_agree"),
+    "merge.exits_kernel": (
+        "rotate",
+        "correspond",
+        "lengths_agree",
+        "angles_fit",
+    ),
     "merge.table_kernel": ("slot_of", "put", "extended"),
     "merge.kernel": ("gain", "grow", "grow_all"),
 }

@@ -48,7 +48,7 @@ def embed(graph: Graph, sideways: float = SIDEWAYS) -> Floats:
     normal, pull, free = _springs(graph, sideways)
     out = np.zeros(2 * len(graph))
     if len(free):
-        out[free] = _factorised(normal, free).solve(pull[free])
+        out[free] = _factorised(normal).solve(pull)
     return out.reshape(-1, 2)
 
 
@@ -81,8 +81,8 @@ def embed_with_covariances(
     covariances = np.zeros((len(graph), 2, 2))
     if len(free) == 0:
         return out.reshape(-1, 2), covariances
-    solver = _factorised(normal, free)
-    out[free] = solver.solve(pull[free])
+    solver = _factorised(normal)
+    out[free] = solver.solve(pull)
     step = 64
     for start in range(0, len(free), step):
         stop = min(start + step, len(free))
@@ -98,8 +98,8 @@ def embed_with_covariances(
     return out.reshape(-1, 2), covariances
 
 
-def _factorised(normal: Any, free: Any) -> Any:
-    """Return what solves for the free coordinates.
+def _factorised(normal: Any) -> Any:
+    """Return what solves with the normal matrix.
 
     The matrix is symmetric and positive definite: it needs no pivots, and keeps its
     order, which is ten times as fast as a general sparse solution.
@@ -107,7 +107,7 @@ def _factorised(normal: Any, free: Any) -> Any:
     from scipy.sparse.linalg import splu
 
     return splu(
-        normal[free][:, free].tocsc(),
+        normal,
         permc_spec="MMD_AT_PLUS_A",
         diag_pivot_thresh=0.0,
         options={"SymmetricMode": True},
@@ -115,11 +115,12 @@ def _factorised(normal: Any, free: Any) -> Any:
 
 
 def _springs(graph: Graph, sideways: float) -> tuple[Any, Floats, Any]:
-    """Return the normal matrix, the pull, and the coordinates that are not fixed."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
+    """Return the normal matrix and the pull of the coordinates that are not fixed.
 
-    size = len(graph)
+    And which these are: of all coordinates, x and y of a vertex side by side.
+    """
+    from scipy.sparse import coo_array
+
     u, i, v = graph.edges[:, 0], graph.edges[:, 1], graph.edges[:, 2]
     angle = graph.exits[graph.first_exit[u] + i]
     along = np.column_stack([np.cos(angle), np.sin(angle)])
@@ -127,31 +128,44 @@ def _springs(graph: Graph, sideways: float) -> tuple[Any, Floats, Any]:
     along = np.where(np.abs(along) < 1e-12, 0.0, along)
     across = np.column_stack([-along[:, 1], along[:, 0]])
     rest = graph.lengths[:, None] * along + graph.shifts[:, None] * across
-    stiff = 1.0 / graph.variances
-    info = stiff[:, None, None] * (
-        along[:, :, None] * along[:, None, :]
-        + across[:, :, None] * across[:, None, :] / sideways**2
-    )
+    info = along[:, :, None] * along[:, None, :]
+    info += across[:, :, None] * across[:, None, :] / sideways**2
+    info /= graph.variances[:, None, None]
     force = np.einsum("kij,kj->ki", info, rest)
-    rows, columns, values = [], [], []
-    for r in (0, 1):
-        for c in (0, 1):
-            for one, other, sign in ((u, u, 1), (v, v, 1), (u, v, -1), (v, u, -1)):
-                rows.append(2 * one + r)
-                columns.append(2 * other + c)
-                values.append(sign * info[:, r, c])
+    vertices, place = _free(graph)
+    size = 2 * len(vertices)
+    one, two = np.concatenate([u, v, u, v]), np.concatenate([u, v, v, u])
+    blocks = np.concatenate([info, info, -info, -info])
+    rows, columns = np.broadcast_arrays(
+        2 * place[one][:, None, None] + np.array([[0], [1]]),
+        2 * place[two][:, None, None] + np.array([0, 1]),
+    )
+    kept = (blocks != 0) & ((place[one] >= 0) & (place[two] >= 0))[:, None, None]
     normal = coo_array(
-        (np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
-        shape=(2 * size, 2 * size),
-    ).tocsr()
-    pull = np.zeros(2 * size)
-    for r in (0, 1):
-        np.add.at(pull, 2 * v + r, force[:, r])
-        np.add.at(pull, 2 * u + r, -force[:, r])
-    links = coo_array((np.ones(len(u)), (u, v)), shape=(size, size))
+        (blocks[kept], (rows[kept], columns[kept])), shape=(size, size)
+    ).tocsc()
+    pull = np.zeros((len(graph), 2))
+    for axis in (0, 1):
+        for end, sign in ((v, 1.0), (u, -1.0)):
+            pull[:, axis] += sign * np.bincount(end, force[:, axis], len(graph))
+    free = np.column_stack([2 * vertices, 2 * vertices + 1]).ravel()
+    return normal, pull[vertices].ravel(), free
+
+
+def _free(graph: Graph) -> tuple[Any, Any]:
+    """Return all vertices but the first of each connected part.
+
+    And where each vertex of the graph is among them, or -1.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    size, ends = len(graph), (graph.edges[:, 0], graph.edges[:, 2])
+    links = coo_array((np.ones(len(ends[0])), ends), shape=(size, size))
     _, part = connected_components(links, directed=False)
     _, anchors = np.unique(part, return_index=True)
-    free = np.ones(size, bool)
-    free[anchors] = False
-    vertices = np.flatnonzero(free)
-    return normal, pull, np.column_stack([2 * vertices, 2 * vertices + 1]).ravel()
+    place = np.zeros(size, np.int64)
+    place[anchors] = -1
+    vertices = np.flatnonzero(place == 0)
+    place[vertices] = np.arange(len(vertices))
+    return vertices, place

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-__all__ = ["MOST", "correspond", "lengths_agree", "rotate"]
+__all__ = ["MOST", "angles_fit", "correspond", "lengths_agree", "rotate"]
 
 MOST = 64
 """More exits than that no vertex may have."""
@@ -79,3 +79,27 @@ def lengths_agree(a, b, da, db, most):
     """Tell whether the lengths at two darts differ by no more than chance allows."""
     d = a.length[da] - b.length[db]
     return d * d <= most * (a.variance[da] + b.variance[db])
+
+
+def angles_fit(a, b, da, db, spread):
+    """Return the log density of the angles between the exits at two equal vertices.
+
+    Seen from darts da and db, which correspond; `spread` is the variance of the
+    difference of one exit's direction in the two maps.
+    """
+    u, w = a.owner[da], b.owner[db]
+    p, q = a.first[u], b.first[w]
+    m = a.first[u + 1] - p
+    if m != b.first[w + 1] - q:
+        return 0.0
+    turn = b.angle[db] - a.angle[da]
+    offset = (db - q) - (da - p)
+    total = 0.0
+    square = 0.0
+    for i in range(m):
+        e = b.angle[q + (i + offset) % m] - a.angle[p + i] - turn
+        e -= math.tau * round(e / math.tau)
+        total += e
+        square += e * e
+    fit = (square - total * total / m) / spread
+    return -0.5 * (fit + (m - 1) * math.log(math.tau * spread) + math.log(m))

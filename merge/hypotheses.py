@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from merge.layout import Layout, sign
+from merge.surprise import surprises
 
 if TYPE_CHECKING:
     from merge.options import Options
@@ -23,8 +24,8 @@ UNIT = 2.0**-20
 SQUARE_ENOUGH, UNLIKE = 0.05, 0.6
 """Between these angular errors, in radians, views of rectilinear maps are equal just
 where their vertices correspond."""
-PRIOR = 5.0
-"""How many views the average over all vertices counts for beside the seen ones."""
+WITHIN = 3.0
+"""Standard deviations of the difference of two exits in the angle that is tolerated."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +49,8 @@ class Hypotheses:
     pairings: int
     """Compatible pairs of vertices, each rotation counted [K 4.2.1]; where a map is
     not rectilinear, those of equal type and number of exits."""
+    ways: float
+    """The same, but for the pairs whose angles between exits lie apart."""
     tried: int
     """Pairs, with rotation, that agreed with their neighbourhood and were grown."""
 
@@ -124,7 +127,9 @@ def grow_hypotheses(
     )
     rank_a = np.lexsort((entries_a[:, 0], keys_a))
     rank_b = np.lexsort((low, keys_b))
-    gains = _gains(a, b, signatures.a, signatures.b, width)
+    spread = 0.0 if signatures.rectilinear else (options.angle / WITHIN) ** 2
+    both = signatures.a, signatures.b
+    gains, likely = surprises(a, b, both, spread)
     if touched is None:
         only_a, only_b = np.ones(len(a.types), bool), np.ones(len(b.types), bool)
     else:
@@ -136,9 +141,10 @@ def grow_hypotheses(
     quick = signatures.rectilinear and SQUARE_ENOUGH < options.angle < UNLIKE
     exact = quick and not options.doors and bool(a.complete.all() & b.complete.all())
     pairs, told, tried = grow_all(
-        *(a, b, (signatures.a, signatures.b), keys_a[rank_a], entries_a[rank_a]),
+        *(a, b, both, keys_a[rank_a], entries_a[rank_a]),
         *(keys_b[rank_b], one[rank_b], rows[rank_b], gains),
         *(options.angle, options.most, int(options.doors), options.tolerate_rim),
+        spread,
         *((quick, exact), options.least, only_a, only_b, known),
     )
     (darts_a, darts_b), (ends, score, edges, against) = pairs, told
@@ -154,6 +160,9 @@ def grow_hypotheses(
     darts_a, darts_b = darts_a[order], darts_b[order]
     score, edges, against = score[rank], edges[rank], against[rank]
     first = np.concatenate([[0], np.cumsum(sizes[rank])])
+    # Each vertex of A from its first exit, on every exit of B that looks like it.
+    some = a.first[:-1][a.first[:-1] < a.first[1:]]
+    compatible = np.bincount(signatures.b, minlength=width)[signatures.a[some]]
     # Loops repeat what their other edges say: count each new vertex once.
     sizes = np.diff(first)
     share = np.minimum((sizes - 1) / np.maximum(edges, 1), 1.0)
@@ -165,16 +174,10 @@ def grow_hypotheses(
         score=score * UNIT * share,
         edges=edges,
         contradictions=against,
-        pairings=_count_pairings(a, signatures.a, signatures.b, width),
+        pairings=int(compatible.sum()),
+        ways=float((compatible * likely[some]).sum()),
         tried=int(tried),
     )
-
-
-def _count_pairings(a: Layout, views_a: Ints, views_b: Ints, width: int) -> int:
-    """Count the ways in which a vertex of one map looks like one of the other."""
-    some = a.first[:-1] < a.first[1:]
-    first = views_a[a.first[:-1][some]]
-    return int(np.bincount(views_b, minlength=width)[first].sum())
 
 
 def _entries(
@@ -200,40 +203,3 @@ def _entries(
     near, far = views[layout.twin[one]], views[layout.twin[two]]
     keys = ((views[one] * 64 + gap) * width + near) * width + far
     return np.column_stack([one, two]), keys
-
-
-def _gains(
-    a: Layout, b: Layout, views_a: Ints, views_b: Ints, width: int
-) -> tuple[Floats, Floats]:
-    """Return for each exit how surprising its length and its far vertex are.
-
-    Shape (D, 2): minus the log of the density of the length, and of the frequency of
-    the far view among those seen from the same view, in both maps together.
-    """
-    out = []
-    seen_a, seen_b = np.flatnonzero(a.twin >= 0), np.flatnonzero(b.twin >= 0)
-    pool = np.sort(np.concatenate([a.length[seen_a], b.length[seen_b]]))
-    view = np.concatenate([views_a[seen_a], views_b[seen_b]])
-    far = np.concatenate([views_a[a.twin[seen_a]], views_b[b.twin[seen_b]]])
-    of_view = np.bincount(view, minlength=width).astype(float)
-    of_far = np.bincount(far, minlength=width) / max(len(far), 1)
-    steps, index, count = np.unique(
-        view * width + far, return_inverse=True, return_counts=True
-    )
-    near, beyond = steps // width, steps % width
-    share = (count + PRIOR * of_far[beyond]) / (of_view[near] + PRIOR)
-    surprise = -np.log(share)[index]
-    for layout, seen, told in (
-        (a, seen_a, surprise[: len(seen_a)]),
-        (b, seen_b, surprise[len(seen_a) :]),
-    ):
-        gain = np.zeros((len(layout.owner), 2))
-        length = layout.length[seen]
-        reach = np.sqrt(6.0 * layout.variance[seen])
-        within = np.searchsorted(pool, length + reach, side="right")
-        within = within - np.searchsorted(pool, length - reach, side="left")
-        density = (within + 1) / ((len(pool) + 1) * 2 * reach)
-        gain[seen, 0] = -np.log(density)
-        gain[seen, 1] = np.where(layout.solid[seen], told, 0.0)
-        out.append(gain)
-    return out[0], out[1]

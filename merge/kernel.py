@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from merge.exits_kernel import MOST, correspond, lengths_agree, rotate
+from merge.exits_kernel import MOST, angles_fit, correspond, lengths_agree, rotate
 from merge.table_kernel import extended, put, slot_of
 
 __all__ = ["grow_all"]
@@ -23,18 +23,22 @@ UNIT = 1048576.0
 """Scores are added as whole numbers of one part in so many."""
 
 
-def gain(a, b, xa, xb, gain_a, gain_b):
+def gain(a, b, xa, xb, gain_a, gain_b, bend):
     """Return what two edges that agree tell, half of it for each of their ends."""
     d = a.length[xa] - b.length[xb]
     spread = a.variance[xa] + b.variance[xb]
     fit = -0.5 * (d * d / spread + math.log(math.tau * spread))
     fit += min(gain_a[xa, 0], gain_b[xb, 0])
     fit += min(gain_a[xa, 1], gain_b[xb, 1])
+    if bend > 0.0 and a.solid[xa] and b.solid[xb]:
+        fit += min(gain_a[xa, 2], gain_b[xb, 2])
+        fit += angles_fit(a, b, a.twin[xa], b.twin[xb], bend)
     return np.int64(round(0.5 * fit * UNIT))
 
 
 def grow(
-    a, b, views, gains, tol, most, slack, rim, alike, mates, queue, partner, probe
+    a, b, views, gains, tol, most, slack, rim, bend, alike, mates, queue, partner,
+    probe,
 ):  # fmt: skip
     """Grow the pair at the head of the queue to its end, or to its first mismatch.
 
@@ -102,7 +106,7 @@ def grow(
             if a.solid[xa] and b.solid[xb]:
                 joint += 1
             # Both ends see each edge; half of its gain from each.
-            score += gain(a, b, xa, xb, gains[0], gains[1])
+            score += gain(a, b, xa, xb, gains[0], gains[1], bend)
             edges += 1
         if clean and joint >= 2:
             core = True
@@ -111,14 +115,15 @@ def grow(
 
 def grow_all(
     a, b, views, key_a, entry_a, key_b, entry_b, row_b, gains,
-    tol, most, slack, rim, alike, least, only_a, only_b, known,
+    tol, most, slack, rim, bend, alike, least, only_a, only_b, known,
 ):  # fmt: skip
     """Grow every seed and return the hypotheses that survive.
 
     Entries are pairs of solid darts of one vertex, sorted by key; of B only the first
     dart is given, and in `row_b` what the search reads: length and variance at the
     first and at the second, and the least length that the first allows, by which
-    rows of one key rise. Of `alike` the first says that vertices of equal views
+    rows of one key rise. `bend` is the variance of the difference of two exits, or 0
+    where views say the shape. Of `alike` the first says that vertices of equal views
     correspond, the second that no others do. Returns arrays: the pairs (dart of A,
     dart of B, standing for vertex pair and rotation); for each hypothesis where its
     pairs end, its score in `UNIT`, matched edges, contradictions; and the number of
@@ -140,19 +145,29 @@ def grow_all(
     count = 0
     filled = 0
     tried = 0
+    # The greatest length that a row, or one before it of its key, allows.
+    top = row_b[:, 0] + np.sqrt(most * row_b[:, 1])
+    for y in range(1, len(key_b)):
+        if key_b[y] == key_b[y - 1] and top[y] < top[y - 1]:
+            top[y] = top[y - 1]
     lo = 0
+    end = 0
     for x in range(len(key_a)):
         a1, a2 = entry_a[x, 0], entry_a[x, 1]
         while lo < len(key_b) and key_b[lo] < key_a[x]:
             lo += 1
+        end = max(end, lo)
+        while end < len(key_b) and key_b[end] == key_a[x]:
+            end += 1
         u = a.owner[a1]
         p = a.first[u]
         high = a.length[a1] + math.sqrt(most * a.variance[a1])
         la1, va1 = a.length[a1], most * a.variance[a1]
         la2, va2 = a.length[a2], most * a.variance[a2]
-        for y in range(lo, len(key_b)):
+        low = a.length[a1] - math.sqrt(most * a.variance[a1])
+        for y in range(lo + np.searchsorted(top[lo:end], low), end):
             # Rows rise with the least true length that they allow.
-            if key_b[y] != key_a[x] or row_b[y, 4] > high:
+            if row_b[y, 4] > high:
                 break
             d = la1 - row_b[y, 0]
             if d * d > va1 + most * row_b[y, 1]:
@@ -191,7 +206,7 @@ def grow_all(
             mate_b[w] = u
             dart_of[u] = q + partner[0]
             tail, score, edges, wrong, core = grow(
-                a, b, views, gains, tol, most, slack, rim, alike,
+                a, b, views, gains, tol, most, slack, rim, bend, alike,
                 (mate_a, mate_b, dart_of), (queue_a, queue_b), partner, probe,
             )  # fmt: skip
             keep = tail >= least and core and (wrong == 0 or rim)

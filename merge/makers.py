@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import replace
 
@@ -16,6 +17,7 @@ __all__ = [
     "displace",
     "overlapping",
     "perturb",
+    "swing",
     "turn",
 ]
 
@@ -24,10 +26,10 @@ Ints = NDArray[np.int64]
 
 def breadth_first(graph: Graph, start: int, size: int) -> Ints:
     """Return the first `size` vertices that a search from `start` reaches."""
-    near: list[list[int]] = [[] for _ in range(len(graph))]
-    for u, _, v, _ in graph.edges.tolist():
-        near[u].append(v)
-        near[v].append(u)
+    return _search(_neighbours(graph), start, size)
+
+
+def _search(near: list[list[int]], start: int, size: int) -> Ints:
     order, seen = [start], {start}
     for vertex in order:
         if len(order) >= size:
@@ -37,6 +39,15 @@ def breadth_first(graph: Graph, start: int, size: int) -> Ints:
                 seen.add(other)
                 order.append(other)
     return np.array(order[:size])
+
+
+def _neighbours(graph: Graph) -> list[list[int]]:
+    """Return for each vertex those that an edge leads to, in the order of the edges."""
+    near: list[list[int]] = [[] for _ in range(len(graph))]
+    for u, _, v, _ in graph.edges.tolist():
+        near[u].append(v)
+        near[v].append(u)
+    return near
 
 
 def cut(graph: Graph, vertices: Ints) -> Graph:
@@ -50,11 +61,16 @@ def cut(graph: Graph, vertices: Ints) -> Graph:
     inside = (place[graph.edges[:, 0]] >= 0) & (place[graph.edges[:, 2]] >= 0)
     edges = graph.edges[inside].copy()
     edges[:, 0], edges[:, 2] = place[edges[:, 0]], place[edges[:, 2]]
-    exits = [graph.exits_of(int(v)) for v in vertices]
+    count = np.diff(graph.first_exit)[vertices]
+    first = np.concatenate([[0], np.cumsum(count)])
+    # The place of each exit in the whole: where its vertex begins, and so many on.
+    kept = np.arange(first[-1]) + np.repeat(
+        graph.first_exit[vertices] - first[:-1], count
+    )
     return Graph(
         types=graph.types[vertices],
-        first_exit=np.concatenate([[0], np.cumsum([len(e) for e in exits])]),
-        exits=np.concatenate(exits),
+        first_exit=first,
+        exits=graph.exits[kept],
         edges=edges,
         lengths=graph.lengths[inside],
         variances=graph.variances[inside],
@@ -78,6 +94,23 @@ def perturb(graph: Graph, sigma: float, rng: np.random.Generator) -> Graph:
         variances=(sigma * measured) ** 2 + 1e-6,
         positions=None,
     )
+
+
+def swing(graph: Graph, sigma: float, rng: np.random.Generator) -> Graph:
+    """Measure the direction of every exit anew, with an error of `sigma` radians.
+
+    A robot that turns on the spot passes the exits one after the other: however near
+    they are to each other, their order stays.
+    """
+    swung = graph.exits + sigma * rng.standard_normal(len(graph.exits))
+    for first, last in itertools.pairwise(graph.first_exit.tolist()):
+        order = np.argsort(graph.exits[first:last])
+        turns = np.sort(swung[first:last])
+        over = max(np.ptp(turns) - math.tau + 1e-4, 0.0) if len(turns) else 0.0
+        turns = np.clip(turns, turns[:1] + over / 2, turns[-1:] - over / 2)
+        # Where two fall together the lesser index comes first, as it does elsewhere.
+        swung[first:last][order] = turns + 1e-7 * np.arange(len(turns))
+    return replace(graph, exits=swung)
 
 
 def turn(graph: Graph, angle: float, rng: np.random.Generator) -> tuple[Graph, Ints]:
@@ -125,10 +158,7 @@ def displace(
     if graph.positions is None:
         raise ValueError("displace: expected a graph with positions; got None")
     off = sigma * rng.standard_normal((len(graph), 2))
-    near: list[list[int]] = [[] for _ in range(len(graph))]
-    for u, _, v, _ in graph.edges.tolist():
-        near[u].append(v)
-        near[v].append(u)
+    near = _neighbours(graph)
     order, parent = [0], {0: 0}
     for vertex in order:
         for other in near[vertex]:
@@ -171,14 +201,15 @@ def overlapping(
         As `breadth_first` returns them; the second starts where, of a dozen tries
         outward from the first, the overlap is nearest to what was asked.
     """
-    one = breadth_first(graph, int(rng.integers(len(graph))), size)
+    near = _neighbours(graph)
+    one = _search(near, int(rng.integers(len(graph))), size)
     inside = set(one.tolist())
-    far = breadth_first(graph, int(one[0]), min(len(graph), 4 * size))
+    far = _search(near, int(one[0]), min(len(graph), 4 * size))
     low, high = 0, len(far) - 1
     best, error = one, 1.0 - overlap
     while low <= high:
         middle = (low + high) // 2
-        two = breadth_first(graph, int(far[middle]), size)
+        two = _search(near, int(far[middle]), size)
         share = len(inside.intersection(two.tolist())) / size
         if abs(share - overlap) < error:
             best, error = two, abs(share - overlap)

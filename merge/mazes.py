@@ -52,27 +52,12 @@ def make_maze(
     straight = opposite & (open_.sum(axis=1) == 2)
     if not keep_straight:
         mask &= ~straight
-    number = np.where(mask, np.cumsum(mask) - 1, -1)
-    step = [1, columns, -1, -columns]
-    edges, lengths = [], []
     at = np.column_stack([np.tile(x, rows), np.repeat(y, columns)])
-    for cell in np.flatnonzero(mask).tolist():
-        for way in (0, 1):
-            if open_[cell, way]:
-                end = cell + step[way]
-                while not mask[end]:
-                    end += step[way]
-                edges.append(
-                    (
-                        number[cell],
-                        int(open_[cell, :way].sum()),
-                        number[end],
-                        int(open_[end, : way + 2].sum()),
-                    )
-                )
-                lengths.append(float(np.abs(at[end] - at[cell]).sum()))
+    edges, lengths = _corridors(open_, mask, columns, at)
     quarter = math.pi / 2
-    exits = [[quarter * way for way in np.flatnonzero(row)] for row in open_[mask]]
+    exits = [
+        [quarter * way for way in range(4) if row[way]] for row in open_[mask].tolist()
+    ]
     return Graph.of(
         types=open_[mask].sum(axis=1),
         exits=exits,
@@ -81,6 +66,32 @@ def make_maze(
         sigmas=np.full(len(lengths), 1e-3),
         positions=at[mask],
     )
+
+
+def _corridors(
+    open_: NDArray[np.bool_],
+    mask: NDArray[np.bool_],
+    columns: int,
+    at: NDArray[np.float64],
+) -> tuple[list[tuple[int, int, int, int]], list[float]]:
+    """Return the edges between the cells that are vertices, and their lengths."""
+    number = np.where(mask, np.cumsum(mask) - 1, -1).tolist()
+    # How many open ways a cell has before each.
+    rank: list[list[int]] = (np.cumsum(open_, axis=1) - open_).tolist()
+    is_open, is_vertex, place = open_.tolist(), mask.tolist(), at.tolist()
+    edges, lengths = [], []
+    for cell in np.flatnonzero(mask).tolist():
+        for way, step in ((0, 1), (1, columns)):
+            if is_open[cell][way]:
+                end = cell + step
+                while not is_vertex[end]:
+                    end += step
+                edges.append(
+                    (number[cell], rank[cell][way], number[end], rank[end][way + 2])
+                )
+                (x, y), (to_x, to_y) = place[cell], place[end]
+                lengths.append(abs(to_x - x) + abs(to_y - y))
+    return edges, lengths
 
 
 def _passages(
@@ -103,12 +114,16 @@ def _passages(
 
     opened = np.zeros((size, 4), bool)
     order = rng.permutation(len(walls))
-    extra = rng.random(len(walls)) < loops
+    extra = (rng.random(len(walls)) < loops).tolist()
+    ends = walls.tolist()
+    gone = []
     for k in order.tolist():
-        one, two = int(walls[k, 0]), int(walls[k, 1])
+        one, two = ends[k]
         first, second = find(one), find(two)
         if first != second or extra[k]:
             root[first] = second
-            way = 0 if two == one + 1 else 1
-            opened[one, way] = opened[two, way + 2] = True
+            gone.append(k)
+    one, two = walls[gone].T
+    way = np.where(two == one + 1, 0, 1)
+    opened[one, way] = opened[two, way + 2] = True
     return opened

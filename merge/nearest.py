@@ -34,15 +34,14 @@ def nearest(points: Floats, queries: Floats, count: int) -> tuple[Floats, Ints]:
 
         away, rows = cKDTree(points).query(queries, k=np.arange(1, count + 1))
         return np.asarray(away), np.asarray(rows)
-    step = queries[:, None, :] - points[None, :, :]
-    away = np.sqrt((step**2).sum(axis=2))
-    rows = np.argpartition(away, min(count, len(points)) - 1, axis=1)[:, :count]
-    found = np.take_along_axis(away, rows, axis=1)
-    order = np.argsort(found, axis=1, kind="stable")
-    return (
-        np.take_along_axis(found, order, axis=1),
-        np.take_along_axis(rows, order, axis=1),
-    )
+    away = _squares(queries, points)
+    row = np.arange(len(queries))
+    found, rows = np.empty((len(queries), count)), np.empty((len(queries), count), int)
+    for k in range(count):
+        rows[:, k] = away.argmin(axis=1)
+        found[:, k] = away[row, rows[:, k]]
+        away[row, rows[:, k]] = np.inf
+    return np.sqrt(found), rows
 
 
 def within(points: Floats, reach: float) -> Ints:
@@ -51,6 +50,13 @@ def within(points: Floats, reach: float) -> Ints:
         from scipy.spatial import cKDTree
 
         return np.asarray(cKDTree(points).query_pairs(reach, output_type="ndarray"))
-    step = points[:, None, :] - points[None, :, :]
-    close = (step**2).sum(axis=2) <= reach**2
-    return np.argwhere(np.triu(close, 1))
+    return np.argwhere(np.triu(_squares(points, points) <= reach**2, 1))
+
+
+def _squares(one: Floats, other: Floats) -> Floats:
+    """Return the squared distances between two sets of points."""
+    away = np.zeros((len(one), len(other)))
+    for axis in range(one.shape[1]):
+        step = one[:, axis, None] - other[:, axis]
+        away += step * step
+    return away

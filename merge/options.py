@@ -40,7 +40,9 @@ class Options:
     a share of the mean length of an edge; above 0."""
     false_merge: float = 1e-3
     """A merge whose probability to be wrong is above is refused; in (0, 1)."""
-
+    twins: float = 0.0
+    """How likely it is beforehand that the second robot was in another part of the
+    building, just like the one that the first saw; in [0, 1). No map shows it."""
     compiled: bool = True
     """Search with the compiled loops. Loading them takes most of a second, in which
     the same loops in plain Python match two maps of some hundred vertices; either
@@ -58,6 +60,8 @@ class Options:
                 raise ValueError(
                     f"{name} must lie between {low} and {high}; got {value}"
                 )
+        if not 0.0 <= self.twins < 1.0:
+            raise ValueError(f"twins must lie in [0, 1); got {self.twins}")
         if self.least < 2:
             raise ValueError(f"least must be at least 2 vertices; got {self.least}")
 

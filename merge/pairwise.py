@@ -40,7 +40,7 @@ class Match:
     reason: str
     """Why it was refused; empty where it was accepted."""
     false_merge_probability: float
-    """How likely the best overlay is wrong, in (0, 1]."""
+    """How likely the best overlay is wrong, at most; in (0, 1]."""
     best: Cluster | None
     """The best overlay, or None where no hypothesis survived."""
     alternatives: tuple[Cluster, ...]
@@ -120,25 +120,28 @@ def decide(
     overlays = find_overlays(hypotheses, at_a, at_b, options.reach * edge)
     overlays.sort(key=lambda c: (-c.score, c.residual, c.members))
     best, others = overlays[0], tuple(overlays[1:])
-    trials = float(len(a) * len(b))
+    # Of the ways to lay a vertex on another, each overlay is one for each of its pairs.
+    trials = max(hypotheses.ways / len(best.pairs), 1.0)
     rivals = [
         min(best.score, other.score + float(by_luck(len(other.pairs))))
         for other in others
     ]
-    wrong = false_merge_probability(best.score, rivals, trials)
+    doubt = false_merge_probability(best.score, rivals, trials)
+    wrong = doubt + options.twins * (1.0 - doubt)
     if wrong > options.false_merge:
-        reason = _why(best, others, wrong, trials, options)
+        reason = _why(best, others, (doubt, wrong), trials, options)
         return Match(False, reason, wrong, best, others, hypotheses, at_a, at_b)
     verified = verify(*layouts, at_a, at_b, best, options)
     copies = [
-        find_copies(graph, layout, best.pairs[:, side], options)
-        for side, (graph, layout) in enumerate(zip((a, b), layouts, strict=True))
+        find_copies(layout, best.pairs[:, side], options)
+        for side, layout in enumerate(layouts)
     ]
     told = told_by_copies(copies, len(best.pairs), best.score)
     against = told + CLASH * len(verified.clashes)
-    wrong = false_merge_probability(
+    doubt = false_merge_probability(
         best.score - against, [score - told for score in rivals], trials
     )
+    wrong = doubt + options.twins * (1.0 - doubt)
     reason = ""
     if wrong > options.false_merge:
         share = told / best.score
@@ -154,20 +157,25 @@ def decide(
 def _why(
     best: Cluster,
     others: tuple[Cluster, ...],
-    wrong: float,
+    wrong: tuple[float, float],
     trials: float,
     options: Options,
 ) -> str:
-    """Say why an overlay is refused."""
+    """Say why an overlay is refused; how likely it is wrong without and with twins."""
     alone = false_merge_probability(best.score, [], trials)
     size = len(best.pairs)
     if alone > options.false_merge:
         return (
             f"the best overlay has {size} matching vertices, which maps of this size "
-            f"can have by chance: it is wrong with probability {wrong:.2g}"
+            f"can have by chance: it is wrong with probability {wrong[1]:.2g}"
+        )
+    if wrong[0] <= options.false_merge:
+        return (
+            f"{size} vertices match, but the building may have another part like "
+            f"them: the overlay is wrong with probability {wrong[1]:.2g}"
         )
     return (
         f"the maps fit in more than one way: the best overlay has {size} matching "
         f"vertices, another {len(others[0].pairs)}; the best is wrong with "
-        f"probability {wrong:.2g}"
+        f"probability {wrong[1]:.2g}"
     )

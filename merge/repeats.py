@@ -11,13 +11,10 @@ from numpy.typing import NDArray
 
 from merge.chance import by_luck
 from merge.hypotheses import grow_hypotheses
-from merge.layout import lay_out
-from merge.makers import cut
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from merge.graph import Graph
     from merge.layout import Layout
     from merge.options import Options
 
@@ -39,14 +36,14 @@ class Copies(NamedTuple):
 
 
 def find_copies(
-    graph: Graph, layout: Layout, vertices: NDArray[np.int64], options: Options
+    layout: Layout, vertices: NDArray[np.int64], options: Options
 ) -> Copies:
     """Find the parts of a match that its own map has elsewhere as well.
 
     Parameters
     ----------
-    graph, layout : Graph, Layout
-        A map, and how it is laid out.
+    layout : Layout
+        Of a map.
     vertices : ndarray of int, shape (K,)
         The matched ones.
     options : Options
@@ -59,15 +56,26 @@ def find_copies(
         What another place tells is the score of the two as a match, less what it
         takes to name the place. Only those of which that is above 0.
     """
-    part = lay_out(cut(graph, vertices))
+    place = np.full(len(layout.types), -1)
+    place[vertices] = np.arange(len(vertices))
+    part = _part(layout, place >= 0)
     found = grow_hypotheses(part, layout, replace(options, tolerate_rim=True))
     sizes = np.diff(found.first)
-    told = found.score + by_luck(sizes) - math.log(len(graph)) - START
+    told = found.score + by_luck(sizes) - math.log(len(place)) - START
     group = np.repeat(np.arange(len(sizes)), sizes)
-    here = np.bincount(group, vertices[found.a] == found.b, minlength=len(sizes)) > 0
+    here = np.bincount(group, found.a == found.b, minlength=len(sizes)) > 0
     kept = (told > 0) & ~here
     first = np.concatenate([[0], np.cumsum(sizes[kept])])
-    return Copies(first, found.a[kept[group]], told[kept])
+    return Copies(first, place[found.a[kept[group]]], told[kept])
+
+
+def _part(layout: Layout, inside: NDArray[np.bool_]) -> Layout:
+    """Return a layout without the edges that leave a part, or lie outside it."""
+    within = inside[layout.owner] & (layout.twin >= 0)
+    within[within] = inside[layout.owner[layout.twin[within]]]
+    return layout._replace(
+        twin=np.where(within, layout.twin, -1), solid=layout.solid & within
+    )
 
 
 def told_by_copies(copies: Sequence[Copies], size: int, score: float) -> float:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from evidence.walls import LoopCloser
 
-__all__ = ["CLOSINGS", "make_closer"]
+__all__ = ["CLOSINGS", "SLIP", "make_closer"]
 
 CLOSINGS = (
     "likelihood",
@@ -22,9 +22,11 @@ CLOSINGS = (
     "dempster-shafer",
     "dempster-shafer-95",
 )
-"""The likelihood test, and the one that asks for a whole second lap; the published
-rule, with a gate that practically never misses (99.9 %), and with the literal one
-(95 %)."""
+"""The likelihood test, and the one that asks for a whole second lap though no corner
+may be seen wrong; the published rule, with a gate that practically never misses
+(99.9 %), and with the literal one (95 %)."""
+SLIP = 1 / 200
+"""How often a robot of which nothing is known misses, invents or misjudges a corner."""
 
 
 def make_closer(
@@ -33,7 +35,7 @@ def make_closer(
     parameters: Parameters,
     *,
     epsilon: float = 1e-4,
-    slips: bool = True,
+    slip: float = SLIP,
 ) -> LoopCloser:
     """Make the loop closer of a name.
 
@@ -47,10 +49,9 @@ def make_closer(
         Of the robot: they decide how near two equal corners can be.
     epsilon : float
         The likelihood test closes when the probability of being wrong is below.
-
-    slips : bool
-        Whether the likelihood test may find the loop from a later vertex on, where
-        one was missed before.
+    slip : float
+        How often the robot misses, invents or misjudges a corner; see
+        `LikelihoodRule.slip` and `topomap.bodies.body_slip`.
 
     Returns
     -------
@@ -73,7 +74,7 @@ def make_closer(
     if name.startswith("likelihood"):
         full_lap = name == "likelihood-full-lap"
         rule = LikelihoodRule(
-            epsilon=epsilon, full_lap=full_lap, slips=slips, r_star=nearest
+            epsilon=epsilon, full_lap=full_lap, slip=slip, r_star=nearest
         )
         return LikelihoodCloser(error, rule)
     gate = 0.95 if name.endswith("95") else 0.999

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
+from behaviours.persist import persistent
 from behaviours.port import run
 from behaviours.vertices import VertexType
 from topomap.boundary import Walk, map_boundary
@@ -138,7 +139,8 @@ def _explore_halls(
     body: Body, closer: LoopCloser, max_walls: int, sigma: float
 ) -> Found:
     """Map loops and the halls between them, until no exit is unexplored."""
-    found = run(explore_halls(body.parameters, closer, sigma, max_walls), body)
+    exploring = explore_halls(body.parameters, closer, sigma, max_walls)
+    found = run(persistent(exploring), body)
     return Found(
         embedded(found.chart.as_map(body.parameters, sigma)),
         found.closed,

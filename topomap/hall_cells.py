@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-__all__ = ["HallParts", "Junction", "Mouth", "Stretch", "Wall", "hall_parts"]
+__all__ = ["HallParts", "Junction", "OpenSpace", "Stretch", "Wall", "hall_parts"]
 
 ROUNDING = 1e-6
 
@@ -27,7 +27,7 @@ class Junction(NamedTuple):
     number: int
 
 
-class Mouth(NamedTuple):
+class OpenSpace(NamedTuple):
     """A stretch ends in open space."""
 
 
@@ -35,7 +35,7 @@ class Wall(NamedTuple):
     """A stretch ends at a wall."""
 
 
-End = Junction | Mouth | Wall
+End = Junction | OpenSpace | Wall
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +87,8 @@ def hall_parts(
     Raises
     ------
     WorldError
-        If a junction is no rectangle, or a hall forks without one; names the place.
+        If a junction is no rectangle or lies open to a room, or a hall forks without
+        one; names the place.
 
     Notes
     -----
@@ -105,7 +106,7 @@ def hall_parts(
     >>> rooms = shapely.union_all([shapely.box(0, 0, 2, 2), shapely.box(5, 0, 7, 2)])
     >>> hall, = hall_parts(free, rooms, 0.6).stretches
     >>> hall.axis, hall.low, hall.high, hall.ends
-    (0, (2.0, 1.0, 1.5), (5.0, 1.0, 1.5), (Mouth(), Mouth()))
+    (0, (2.0, 1.0, 1.5), (5.0, 1.0, 1.5), (OpenSpace(), OpenSpace()))
     """
     narrow = free.difference(swept)
     if narrow.area < ROUNDING:
@@ -121,7 +122,10 @@ def hall_parts(
     along_y = is_narrow & (across_y <= width + ROUNDING)
     if (both := along_x & along_y).any():
         raise _intricate(xs, ys, both, "a place closed in from all sides")
-    numbers, _ = ndimage.label(is_narrow & ~along_x & ~along_y)
+    is_junction = is_narrow & ~along_x & ~along_y
+    if (bare := is_junction & ndimage.binary_dilation(is_open)).any():
+        raise _intricate(xs, ys, bare, "a junction of halls that lies open to a room")
+    numbers, _ = ndimage.label(is_junction)
     junctions = tuple(_rectangles(numbers, xs, ys, slack))
     # What lies at a cell: -2 a wall, -1 open space, k >= 0 junction k; -3 a hall.
     kinds = np.where(is_free, np.where(is_open, -1, numbers - 1), -2)
@@ -252,7 +256,7 @@ def _end(kinds: NDArray[np.int64], run: tuple[int, int, int], step: int) -> End:
     if not beside:
         return Wall()
     if beside == {-1}:
-        return Mouth()
+        return OpenSpace()
     return Junction(max(beside))
 
 

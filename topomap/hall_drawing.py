@@ -100,6 +100,11 @@ class Mouth:
     out: int
     """The direction out of the hall, in quarter turns."""
 
+    @property
+    def name(self) -> str:
+        """Where it is, for messages."""
+        return "opening at ({:.4g}, {:.4g})".format(*self.place)
+
 
 def draw_halls(
     drawing: Drawing, parts: HallParts, free: shapely.Geometry

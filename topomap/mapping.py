@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from topomap.bodies import body_drift, body_parameters, make_body
+from topomap.bodies import body_drift, body_parameters, body_slip, make_body
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.errors import InputError
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from evidence.walls import LoopCloser
     from topomap.comparison import Comparison
     from worlds.pose import Pose
+    from worlds.profile import Profile
     from worlds.world import World
 
 __all__ = ["Build", "build_map"]
@@ -57,7 +58,7 @@ def build_map(
     world: World,
     rng: np.random.Generator,
     *,
-    body: str = "ideal",
+    body: str | Profile = "ideal",
     sigma: float = 0.06,
     start: Pose | None = None,
     parameters: Parameters | None = None,
@@ -75,7 +76,7 @@ def build_map(
         loop to walk; else the robot explores rooms and halls, 2 r_w to 2 r0 wide.
     rng : numpy.random.Generator
         Draws the start, where none is given, and all of the body's errors.
-    body : {"ideal", "physical"} or a profile's name
+    body : {"ideal", "physical"}, a profile's name or a Profile
         What executes the behaviours; see `topomap.bodies.make_body`.
     sigma : float
         Standard deviation of a measured length, as a part of the length, from
@@ -139,7 +140,9 @@ def build_map(
     if watch is not None:
         robot = watch(robot)
     closer = (
-        make_closer(closing, sigma, parameters) if isinstance(closing, str) else closing
+        make_closer(closing, sigma, parameters, slip=body_slip(body))
+        if isinstance(closing, str)
+        else closing
     )
     halls = not is_open(world, parameters)
     if halls and improve == "active":

@@ -2,32 +2,23 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from behaviours.vertices import VertexType
-from merge.embedding import embed_with_covariances
 from merge.fleet import Fleet, Group, merge_fleet
 from merge.graph import Graph
 from merge.options import Options
-from merge.rigid import RigidTransform, register_rigid
+from merge.rigid import RigidTransform
 from topomap.directions import same_direction
 from topomap.embedding import EXACT
 from topomap.errors import InputError
+from topomap.joined_map import map_of_group
 from topomap.parts import base_map
-from topomap.topological_map import (
-    Edge,
-    Length,
-    TopologicalMap,
-    Vertex,
-)
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from topomap.topological_map import TopologicalMap, Vertex
 
 __all__ = ["Merge", "merge_maps", "to_graph"]
 
@@ -139,7 +130,7 @@ def merge_maps(
     joined = None
     if force or not apart:
         try:
-            joined = _chart(maps, group)
+            joined = map_of_group(maps, group)
         except InputError as error:
             # A contradiction that the overlay tolerated: no map can hold both ways.
             reason = f"joined, the maps contradict each other: {error}"
@@ -206,65 +197,3 @@ def _false_probability(fleet: Fleet, group: Group, count: int) -> float:
             if k in (link.a, link.b) and (link.kept or k not in group.members)
         )
     return 1 - right
-
-
-def _chart(maps: Sequence[TopologicalMap], group: Group) -> TopologicalMap:
-    """Return the merged graph as a map, with every measurement of every robot."""
-    graph = group.graph
-    positions, covariances = embed_with_covariances(graph)
-    if len(graph) > 1:
-        positions = register_rigid(positions, _given(graph))(positions)
-    lengths: list[list[Length]] = [[] for _ in graph.edges]
-    sources: list[Edge | None] = [None] * len(graph.edges)
-    clearance = [math.inf] * len(graph.edges)
-    for k, where in zip(group.members, group.edges, strict=True):
-        for edge, place in zip(maps[k].edges, where.tolist(), strict=True):
-            lengths[place] += edge.lengths
-            sources[place] = sources[place] or edge
-            if edge.clearance is not None:
-                clearance[place] = min(clearance[place], edge.clearance)
-    edges = tuple(
-        Edge(
-            source=u,
-            target=v,
-            source_exit=float(graph.exits_of(u)[i]),
-            target_exit=float(graph.exits_of(v)[j]),
-            lengths=tuple(lengths[k]),
-            behaviour=_behaviour(sources[k]),
-            shift=float(graph.shifts[k]),
-            clearance=clearance[k] if math.isfinite(clearance[k]) else None,
-        )
-        for k, (u, i, v, j) in enumerate(graph.edges.tolist())
-    )
-    free: list[list[float]] = [[] for _ in range(len(graph))]
-    for v, i in graph.unexplored().tolist():
-        free[v].append(float(graph.exits_of(v)[i]))
-    vertices = tuple(
-        Vertex(
-            id=v,
-            type=KINDS[int(graph.types[v])],
-            exits=tuple(graph.exits_of(v).tolist()),
-            unexplored=tuple(free[v]),
-            position=(float(positions[v, 0]), float(positions[v, 1])),
-            covariance=_rows(covariances[v]),
-        )
-        for v in range(len(graph))
-    )
-    return TopologicalMap(vertices, edges, maps[group.members[0]].parameters)
-
-
-def _given(graph: Graph) -> NDArray[np.float64]:
-    if graph.positions is None:
-        raise ValueError("positions: expected those of a merged group; got None")
-    return graph.positions
-
-
-def _behaviour(edge: Edge | None) -> str:
-    return "WF" if edge is None else edge.behaviour
-
-
-def _rows(
-    matrix: NDArray[np.float64],
-) -> tuple[tuple[float, float], tuple[float, float]]:
-    (a, b), (c, d) = matrix.tolist()
-    return (a, b), (c, d)

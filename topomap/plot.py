@@ -14,9 +14,16 @@ True
 'walls walked'
 """
 
-from topomap.build_drawing import draw_belief, draw_build
+from topomap.build_drawing import draw_belief, draw_build, draw_recognitions
 from topomap.drawing import draw_world
 from topomap.map_drawing import draw_map
 from topomap.merge_drawing import draw_overlay
 
-__all__ = ["draw_belief", "draw_build", "draw_map", "draw_overlay", "draw_world"]
+__all__ = [
+    "draw_belief",
+    "draw_build",
+    "draw_map",
+    "draw_overlay",
+    "draw_recognitions",
+    "draw_world",
+]

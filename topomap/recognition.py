@@ -10,15 +10,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.stats import lognorm, ncx2, norm
 
+from topomap.chart import Link
 from topomap.embedding import embed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from behaviours.parameters import Parameters
-    from topomap.chart import Chart, Link
+    from topomap.chart import Chart
 
-__all__ = ["Recognition", "recognise"]
+__all__ = ["Recognition", "expected_evidence", "recognise"]
 
 SLOP = 0.02
 """Standard deviation, in metres, of where in a place a robot stops."""
@@ -26,6 +27,18 @@ COPIES = 0.01
 """Prior share of places that look like one met before, and are not."""
 PRIOR = 0.5
 """Prior probability that a way leads back to where the robot has been."""
+PARTITION = 0.1
+"""Least thickness, in metres, of what is solid between two halls."""
+VARIETY = 0.4
+"""Least standard deviation of the logarithm of what lengths there are: of few that
+happen to be alike, one must not conclude that all are."""
+UNLIKELY = 1e-9
+"""Candidates less likely than this are left out."""
+TINY = 1e-300
+"""Stands in for a probability too small for a float."""
+MARGIN = 4.0
+"""How much wider, in parts of r0, a map is than its vertices, which lie r0 from walls
+that rooms go on behind."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +49,8 @@ class Recognition:
     """The vertex in question."""
     candidates: tuple[tuple[int, float], ...]
     """Earlier vertices that it may be, with their probabilities, best first."""
+    walls: int = 0
+    """How many edges the robot had walked then."""
 
     @property
     def known(self) -> int | None:
@@ -94,8 +109,8 @@ def recognise(
     :math:`\Sigma` its covariance, :math:`\rho` how densely such places lie, r the
     least distance of two places that look the same, with t drawn about
     :math:`\delta`; S the likelihood ratio of all lengths that have been walked from
-    both, and c the share of places that are copies of others. One embedding a
-    candidate: O(V).
+    both, and c the share of places that are copies of others. One embedding serves
+    all candidates; its covariances cost O(V^2).
     """
     found = {
         x: pairs
@@ -124,7 +139,7 @@ def recognise(
         ((x, math.exp(w + odds - total)) for x, w in weights.items()),
         key=lambda row: (-row[1], row[0]),
     )
-    return Recognition(vertex, tuple((x, p) for x, p in ranked if p > 1e-9))
+    return Recognition(vertex, tuple((x, p) for x, p in ranked if p > UNLIKELY))
 
 
 def _whereabouts(
@@ -135,7 +150,7 @@ def _whereabouts(
     places = embed(drawn)
     ids = [v.id for v in drawn.vertices]
     spread = places.covariances + SLOP**2 * np.eye(2)
-    width, height = np.ptp(places.positions, axis=0) + 4 * parameters.r0
+    width, height = np.ptp(places.positions, axis=0) + MARGIN * parameters.r0
     return (
         dict(zip(ids, places.positions, strict=True)),
         dict(zip(ids, spread, strict=True)),
@@ -153,7 +168,7 @@ def _apart(
     Two halls have a wall between them; and rooms do not overlap.
     """
     extent = np.ptp([at[x] for x in pairs.values()], axis=0)
-    return max(2 * parameters.r_w + 0.1, float(extent.min()))
+    return max(2 * parameters.r_w + PARTITION, float(extent.min()))
 
 
 def _log_position(
@@ -170,7 +185,7 @@ def _log_position(
     )
     variance = float(np.linalg.eigvalsh(spread)[-1])
     beyond = ncx2.sf(apart**2 / variance, 2, float(offset @ offset) / variance)
-    return float(near) - math.log(density) - math.log(max(float(beyond), 1e-300))
+    return float(near) - math.log(density) - math.log(max(float(beyond), TINY))
 
 
 def _common(chart: Chart, pairs: dict[int, int]) -> Iterator[tuple[Link, Link]]:
@@ -194,15 +209,57 @@ def _common(chart: Chart, pairs: dict[int, int]) -> Iterator[tuple[Link, Link]]:
                 yield first, second
 
 
+def expected_evidence(link: Link, sigma: float, lengths: NDArray[np.float64]) -> float:
+    """Return how much it tells to walk an edge once more, if it is that edge.
+
+    [K] 3.3.3: at a junction the robot is to choose the way that it expects to yield
+    the most evidence. An edge of a length that few others have tells most.
+
+    Parameters
+    ----------
+    link : Link
+        As it has been measured.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+    lengths : array, shape (E,)
+        Of all edges, in metres.
+
+    Returns
+    -------
+    float
+        Log likelihood ratio of a length that repeats the edge's: of that edge, or of
+        any.
+
+    Examples
+    --------
+    One long hall among short ones:
+
+    >>> short, long = Link(((0, 0), (1, 2)), "HF"), Link(((1, 0), (2, 2)), "HF")
+    >>> short.lengths, long.lengths = [2.0], [9.0]
+    >>> lengths = np.array([2.0, 2.0, 2.1, 9.0])
+    >>> a, b = (expected_evidence(link, 0.06, lengths) for link in (short, long))
+    >>> a < b
+    True
+    """
+    return _log_ratio(link.length, 1, link, sigma, lengths)
+
+
 def _log_shape(
     one: Link, other: Link, sigma: float, lengths: NDArray[np.float64]
 ) -> float:
-    """Return the log likelihood ratio of two lengths: of one edge, or of any two."""
-    share = 1 / len(one.lengths) + 1 / len(other.lengths)
+    """Return the log likelihood ratio of two edges: that they are one, or any two."""
+    return _log_ratio(one.length, len(one.lengths), other, sigma, lengths)
+
+
+def _log_ratio(
+    length: float, times: int, other: Link, sigma: float, lengths: NDArray[np.float64]
+) -> float:
+    """Return the log likelihood ratio of a length: of that edge, or of any."""
+    share = 1 / times + 1 / len(other.lengths)
     deviation = math.hypot(sigma * other.length * math.sqrt(share), 2 * SLOP)
-    same = norm.logpdf(one.length, other.length, deviation)
+    same = norm.logpdf(length, other.length, deviation)
     logs = np.log(lengths)
     any_ = lognorm.logpdf(
-        one.length, max(0.4, float(np.std(logs))), scale=math.exp(float(logs.mean()))
+        length, max(VARIETY, float(np.std(logs))), scale=math.exp(float(logs.mean()))
     )
     return float(same - any_)

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 from behaviours.port import Approach, Outcome, Reason, Sensor, Side, Until
 from worlds.edges import CONFIRM, LIKE, Glance, edge
-from worlds.robot import Robot
-from worlds.straight import NEAR, Control, go, hold, keep_off, pace, settle, stop
+from worlds.robot import NEAR, Robot
+from worlds.straight import Control, go, hold, keep_off, pace, settle, stop
 
 __all__ = ["approach_aside"]
 
@@ -18,6 +18,10 @@ AWAITED = {
     Until.HALL: Reason.NARROWED,
 }
 """How an approach ends where what it waits for has come."""
+JUMP = 0.1
+"""A wall ahead that is elsewhere by more, in parts of r0, is another one."""
+ROUNDS = 2
+"""The robot goes on to a place so often, as it learns better where that is."""
 HASTE = 0.6
 """Part of its speed at which a robot looks aside."""
 
@@ -30,31 +34,38 @@ def approach_aside(robot: Robot, primitive: Approach) -> Control[Outcome]:
     if primitive.limit <= NEAR:
         reason = AWAITED[primitive.until] if search.holds_here() else Reason.DONE
         return Outcome(0.0, reason, robot.readings())
-    if search.place is not None:
+    if search.place is not None or search.holds_first:
         yield from _look_back(robot, search)
     keep = primitive.keep if primitive.keep > 0 else -math.inf
     end = start + primitive.limit
+    gauge = _Gauge(robot)
     reason = Reason.DONE
     while not search.is_over(end):
-        if robot.ahead - keep <= NEAR:
+        if robot.is_blocked(keep):
             reason = Reason.BLOCKED
             break
         remaining = min(end + search.margin - robot.odometer, robot.ahead - keep)
         hold(robot, min(pace(robot, remaining), HASTE * robot.profile.speed))
         yield
+        end += gauge.error()
         if robot.is_fresh:
             search.update()
     yield from stop(robot)
     if search.place is None and search.is_even:
         search.recount(is_over=True)
     robot.seed = None  # what was ahead before a turn has served, or is behind
-    goal = end if reason is Reason.DONE else math.inf
+    end += gauge.error()
     if search.place is not None and search.place <= end:
-        goal, reason = search.place, AWAITED[primitive.until]
-    if goal < math.inf:
-        yield from go(robot, goal - robot.odometer, keep)
-        if goal - robot.odometer > 2 * NEAR:
-            reason = Reason.BLOCKED
+        yield from go(robot, search.place - robot.odometer, keep)
+        is_short = search.place - robot.odometer > 2 * NEAR
+        reason = Reason.BLOCKED if is_short else AWAITED[primitive.until]
+    elif reason is Reason.DONE:
+        for _ in range(ROUNDS):
+            yield from go(robot, end - robot.odometer, keep)
+            if end - robot.odometer > 2 * NEAR:
+                reason = Reason.BLOCKED
+                break
+            end += gauge.error()
     front = -1.0
     if reason is Reason.BLOCKED:
         front = yield from keep_off(robot, keep)
@@ -79,6 +90,20 @@ def _look_back(robot: Robot, search: _Search) -> Control[None]:
     yield from stop(robot)
     search.recount()
     yield from go(robot, place - robot.odometer)
+
+
+class _Gauge:
+    """What a wall ahead tells of the odometer's error."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        self._wall = robot.wall_ahead
+
+    def error(self) -> float:
+        """Return what the odometer has counted too much since it was last asked."""
+        before, self._wall = self._wall, self._robot.wall_ahead
+        error = self._wall - before
+        return error if abs(error) < JUMP * self._robot.parameters.r0 else 0.0
 
 
 class _Search:
@@ -111,6 +136,11 @@ class _Search:
     def last(self) -> float:
         """Where the last glance looked, in metres of the odometer."""
         return self._glances[-1].place if self._glances else -math.inf
+
+    @property
+    def holds_first(self) -> bool:
+        """Whether what was looked for holds at the first glance."""
+        return bool(self._glances) and self._holds(self._glances[0])
 
     def is_over(self, end: float) -> bool:
         """Return whether enough was seen to tell what is up to some place."""

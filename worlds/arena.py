@@ -8,7 +8,7 @@ wall, and only then computes what the wall answers.
 from __future__ import annotations
 
 import math
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 import pymunk
@@ -17,17 +17,17 @@ from numpy.typing import NDArray
 
 from worlds.errors import WorldError
 from worlds.pose import Pose
+from worlds.walled_space import ROBOT, walled_space
 from worlds.world import World
 
 __all__ = ["Arena", "Disc", "Rider"]
 
-WALL, ROBOT = 1, 2
-SLOP = 1e-3
-"""Overlap, in metres, that the contacts leave unresolved."""
 GRIP = 8.0
 """Most that the wheels push, in newtons a kilogram: rubber on a floor."""
 STRIDE = 0.005
 """Farthest, in metres, that a body goes between two tests for contact."""
+NOBODY = pymunk.ShapeFilter(categories=0, mask=0)
+"""What a robot off the floor collides with."""
 
 
 class Rider(Protocol):
@@ -132,12 +132,8 @@ class Arena:
         )
         self._free = world.free_space
         self._substeps = 1
-        self._space = _walled_space(self.walls)
         self._disc_of: dict[pymunk.Shape, Disc] = {}
-        for other in (WALL, ROBOT):
-            self._space.on_collision(
-                ROBOT, other, begin=_begin, separate=_separate, data=self._disc_of
-            )
+        self._space = walled_space(self.walls, self._disc_of)
 
     @property
     def clock(self) -> float:
@@ -184,6 +180,24 @@ class Arena:
         self._substeps = max(self._substeps, needed)
         return disc
 
+    def lift(self, disc: Disc) -> None:
+        """Take a robot off the floor: nothing meets it or sees it."""
+        self._shape_of(disc).filter = NOBODY
+        self.places[disc.row, 2] = -1.0
+
+    def lower(self, disc: Disc) -> bool:
+        """Put it back where it was; return whether there was room for it."""
+        places = self.places[self.places[:, 2] > 0]
+        gaps = np.hypot(places[:, 0] - disc.x, places[:, 1] - disc.y) - places[:, 2]
+        if (gaps < disc.radius).any():
+            return False
+        self._shape_of(disc).filter = pymunk.ShapeFilter()
+        self.places[disc.row, 2] = disc.radius
+        return True
+
+    def _shape_of(self, disc: Disc) -> pymunk.Shape:
+        return next(iter(disc.body.shapes))
+
     def step(self) -> None:
         """Let one time step pass for all robots."""
         for rider in self.riders:
@@ -220,30 +234,3 @@ class Arena:
             if gap < radius + other.radius:
                 fault = f"{here} is {gap:.3f} m from another robot's centre"
                 raise WorldError("start", fault)
-
-
-def _walled_space(walls: NDArray[np.float64]) -> pymunk.Space:
-    """Return a space without gravity whose static segments are the walls."""
-    space = pymunk.Space()
-    space.collision_slop = SLOP
-    for x0, y0, x1, y1 in walls.tolist():
-        wall = pymunk.Segment(space.static_body, (x0, y0), (x1, y1), 0.0)
-        wall.collision_type = WALL
-        wall.friction = 0.5
-        space.add(wall)
-    return space
-
-
-def _begin(arbiter: pymunk.Arbiter, _space: pymunk.Space, disc_of: Any) -> None:
-    """Count a new contact of each robot that takes part in it."""
-    for shape in arbiter.shapes:
-        if shape in disc_of:
-            disc_of[shape].contacts += 1
-            disc_of[shape].touching += 1
-
-
-def _separate(arbiter: pymunk.Arbiter, _space: pymunk.Space, disc_of: Any) -> None:
-    """Note that a contact has ended."""
-    for shape in arbiter.shapes:
-        if shape in disc_of:
-            disc_of[shape].touching -= 1

@@ -22,6 +22,8 @@ PATIENCE = 1800.0
 """Seconds after which a primitive that has not ended is stuck."""
 BUMPS = 3
 """After so many bumps within r0 of way the robot is stuck."""
+PUSHED = 0.1
+"""Standard deviation of what a bump may have turned the robot by, in radians."""
 RECOIL = 1 / 6
 """How far the robot goes back from what it touched, in parts of r0."""
 
@@ -128,6 +130,7 @@ class ControlledBody(ABC):
         way = -math.copysign(RECOIL * self.parameters.r0, robot.speed_asked)
         yield from stop(robot)
         yield from go(robot, way)
+        robot.lean_variance += PUSHED**2
         is_stuck = robot.is_touching or self._bumps >= BUMPS
         return self._outcome(Reason.STUCK if is_stuck else Reason.BUMPED)
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from behaviours.port import Follow, Outcome, Reason, Side
-from worlds.robot import Robot
-from worlds.straight import NEAR, Control, go, hold, keep_off, pace, settle, stop
+from worlds.robot import NEAR, Robot
+from worlds.straight import Control, go, hold, keep_off, pace, settle, stop
 from worlds.wall_track import WallTrack
 
 __all__ = ["follow"]
@@ -56,6 +56,8 @@ def follow(robot: Robot, primitive: Follow) -> Control[Outcome]:
         beside = run.own(robot.left, robot.right)
         if beside < robot.parameters.r_min:
             robot.edge_behind = beside
+        if run.narrow_place is not None:
+            robot.pin(run.narrow_place)
         front = yield from keep_off(robot, r0)
     return run.outcome(reason, front)
 
@@ -137,7 +139,7 @@ class _Run:
             goal = self.start + place
             way = 1.0 if goal > robot.odometer else -1.0
             while not track.is_on_wall and way * (goal - robot.odometer) > NEAR:
-                if way > 0 and robot.ahead - self._r0 <= NEAR:
+                if way > 0 and robot.is_blocked(self._r0):
                     break
                 hold(robot, way * 0.4 * robot.profile.speed)
                 yield
@@ -157,7 +159,7 @@ class _Run:
                 self._settle_start()
             if self.track.change is not None:
                 return self.track.change.reason
-            if robot.ahead - r0 <= NEAR:
+            if robot.is_blocked(r0):
                 return Reason.BLOCKED
             if not self.track.is_on_wall and robot.odometer > self.start + BEHIND * r0:
                 return Reason.RECEDED

@@ -6,8 +6,8 @@ import math
 from statistics import median
 
 from behaviours.port import Centre, Follow, Outcome, Reason, Side
-from worlds.robot import Robot
-from worlds.straight import NEAR, Control, go, hold, keep_off, pace, settle, stop
+from worlds.robot import NEAR, Robot
+from worlds.straight import Control, go, hold, keep_off, pace, settle, stop
 from worlds.turning import spin
 from worlds.wall_track import WallTrack
 
@@ -155,7 +155,7 @@ class _Run:
             reason = self._change()
             if reason is not None:
                 return reason
-            if robot.ahead - r_min <= NEAR:
+            if robot.is_blocked(r_min):
                 return Reason.BLOCKED
             self._steer(pace(robot, robot.ahead - r_min))
             yield

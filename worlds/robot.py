@@ -11,20 +11,42 @@ import math
 from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from behaviours.port import Readings
 from worlds.edges import Glance
 from worlds.profile import Profile, looks_along
 from worlds.view import View
 
-__all__ = ["Robot"]
+__all__ = ["NEAR", "SURE", "Memory", "Robot"]
 
 MEMORY = 192
 """Side readings that the robot keeps of the present leg."""
+NEAR = 0.003
+"""A place is reached within so many metres."""
+SURE = 0.05**2
+"""Below this variance, in squared radians, a heading is known."""
 STAND = 1 / 20
 """How far from where it wants to be a robot may stand, in parts of r0."""
+LOOKS = 4
+"""So many ranges of one thing ahead make it sure where that is."""
 AGREE = 1 / 6
-"""Ranges ahead that differ by more, in parts of r0, are of different things."""
+"""Ranges ahead that differ by more, in parts of r0, are of different things, ..."""
+DOUBTS = 4.0
+"""... if they also do by more standard deviations of a range."""
+
+
+class Memory(NamedTuple):
+    """What a robot knows of the leg that it is on."""
+
+    odometer: float
+    ahead: float
+    pinned: float
+    edge_behind: float | None
+    stepped_to: float | None
+    seed: Glance | None
+    trace: tuple[tuple[float, float, float, float], ...]
+    swept: int
 
 
 class Robot(ABC):
@@ -43,8 +65,8 @@ class Robot(ABC):
         """Estimated heading against the axis of this leg, in radians."""
         self.lean_variance = 1.0
         """Of `lean`; large until the robot has squared up with a wall."""
-        self.ahead = math.inf
-        """Tracked clearance ahead, in metres from the centre."""
+        self._ahead = math.inf
+        self._pinned = math.inf
         self.left = self.right = math.inf
         """Newest side readings, in metres from the centre."""
         self.is_fresh = False
@@ -57,6 +79,7 @@ class Robot(ABC):
         """How far behind the wall to follow next is known to end, in metres."""
         self.stepped_to: float | None = None
         """How far the followed wall is after a step just noticed, in metres."""
+        self._front = next(r for r in profile.rangers if looks_along(r, 0.0))
         side = next(r for r in profile.rangers if looks_along(r, math.pi / 2))
         self.side_lead = side.x
         """How far ahead of the centre the side rangers sit, in metres."""
@@ -78,7 +101,7 @@ class Robot(ABC):
 
     def begin_spin(self) -> None:
         """Forget what the old heading showed."""
-        self.ahead = math.inf
+        self._ahead = self._pinned = math.inf
         self._seen = self._missed = 0
         self.trace.clear()
 
@@ -86,6 +109,36 @@ class Robot(ABC):
         """Ask the wheels for a speed ahead and a rate of turning."""
         half = 0.5 * self.profile.wheel_base * spin
         self._target = (speed - half, speed + half)
+
+    @property
+    def ahead(self) -> float:
+        """Tracked clearance ahead, in metres from the centre."""
+        return min(self._ahead, self._pinned - self.odometer)
+
+    @property
+    def wall_ahead(self) -> float:
+        """What the odometer would show at the wall ahead; nan while that is unsure."""
+        is_sure = self._seen >= LOOKS and self._ahead < math.inf
+        return self.odometer + self._ahead if is_sure else math.nan
+
+    def is_blocked(self, keep: float) -> bool:
+        """Return whether a wall ahead has come as near as `keep`; remember it if so.
+
+        What reaches over the rim of the way is seen in one answer and not in the
+        next. It is taken for what blocks the way once, and then stays until the robot
+        turns or has passed it: no two decisions about one place differ.
+        """
+        if self.ahead - keep > NEAR:
+            return False
+        is_at_the_rim = self.eyes.beam - self.ahead > AGREE * self.parameters.r0
+        if is_at_the_rim and self.lean_variance < SURE:
+            self._pinned = self.odometer + self.ahead
+        return True
+
+    def pin(self, place: float) -> None:
+        """Take note that what blocks the way over its rim begins at a place, if any."""
+        if self._pinned < math.inf:
+            self._pinned = min(self._pinned, place)
 
     @property
     def speed_asked(self) -> float:
@@ -108,7 +161,28 @@ class Robot(ABC):
         self.turned += turn
         self.lean += turn
         self.lean_variance += self.wander * abs(way)
-        self.ahead -= way
+        self._ahead -= way
+        if self._pinned < self.odometer:
+            self._pinned = math.inf
+
+    def memory(self) -> Memory:
+        """Return what a detour must not change."""
+        return Memory(
+            *(self.odometer, self._ahead, self._pinned),
+            *(self.edge_behind, self.stepped_to, self.seed),
+            *(tuple(self.trace), len(self.sweep)),
+        )
+
+    def remember(self, memory: Memory) -> None:
+        """Go on from where a detour began, the robot being back there."""
+        self.odometer = memory.odometer
+        self._ahead, self._pinned = memory.ahead, memory.pinned
+        self.edge_behind, self.stepped_to = memory.edge_behind, memory.stepped_to
+        self.seed = memory.seed
+        self.trace.clear()
+        self.trace.extend(memory.trace)
+        del self.sweep[memory.swept :]
+        self._seen, self._missed = min(self._seen, 1), 0
 
     def readings(self, front: float = -1.0) -> Readings:
         """Return the newest readings; with `front`, what is known of the front."""
@@ -152,6 +226,7 @@ class Robot(ABC):
 
         By `shift` metres to the left; the odometer shows `gone` metres more.
         """
+        self._pinned = math.inf
         self.trace.clear()
         for odometer, _, left, right in memory:
             row = odometer + gone, self.turned, left - shift, right + shift
@@ -164,18 +239,24 @@ class Robot(ABC):
         self.trace.append((self.odometer, self.turned, eyes.left, eyes.right))
         abeam = self.odometer + self.side_lead
         self.sweep.append((abeam, eyes.left, eyes.right))
-        gap = eyes.front - self.ahead
+        gap = eyes.front - self._ahead
         if math.isnan(gap):
             return
-        if abs(gap) <= AGREE * self.parameters.r0:
+        if abs(gap) <= self._same(min(eyes.front, self._ahead)):
             self._seen += 1
-            self.ahead += gap / min(self._seen, 6)
+            self._ahead += gap / min(self._seen, 6)
             self._missed = 0
         elif gap < 0 or self._missed >= 2:
-            self.ahead = eyes.front
+            self._ahead = eyes.front
             self._seen, self._missed = 1, 0
         else:
             self._missed += 1
+
+    def _same(self, ahead: float) -> float:
+        """Return by how much ranges of one thing ahead may differ, in metres."""
+        ranger = self._front
+        deviation = ranger.noise + ranger.noise_growth * (ahead - ranger.x) ** 2
+        return max(AGREE * self.parameters.r0, DOUBTS * deviation)
 
 
 def _wander(profile: Profile, stride: float) -> float:

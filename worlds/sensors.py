@@ -37,6 +37,9 @@ class Eyes(View):
         self._cast = cast
         self._rays = ray_table(profile.rangers)
         self._ranges = np.empty(len(profile.rangers))
+        self.screen: Callable[[list[float]], list[float]] | None = None
+        """Takes out of the answers what is of other robots, where it is told from
+        walls."""
         self._optics = [
             (ranger.near, ranger.far, ranger.noise, ranger.noise_growth)
             for ranger in profile.rangers
@@ -58,7 +61,7 @@ class Eyes(View):
                 deviation = noise + growth * reading * reading
                 reading += deviation * self._normal()
             answers[k] = math.inf if reading > far else max(reading, near)
-        self.take(answers)
+        self.take(answers if self.screen is None else self.screen(answers))
 
 
 def ray_table(rangers: tuple[Ranger, ...]) -> NDArray[np.float64]:

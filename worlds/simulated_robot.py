@@ -7,6 +7,7 @@ rangers answer late and with noise; controllers see nothing else.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 
@@ -117,6 +118,10 @@ class SimulatedRobot(Robot):
         if self.is_fresh:
             self._due += profile.update_period
             self._look()
+
+    def screen(self, screen: Callable[[list[float]], list[float]]) -> None:
+        """Let something take out of the rangers' answers what is of other robots."""
+        self._eyes.screen = screen
 
     def normal(self) -> float:
         """Draw from the standard normal distribution."""

@@ -15,7 +15,7 @@ from behaviours.port import (
     Reason,
     Sensor,
 )
-from worlds.robot import Robot
+from worlds.robot import NEAR, SURE, Robot
 
 __all__ = ["SURE", "Control", "approach", "go", "hold", "move", "settle", "stop"]
 
@@ -23,12 +23,8 @@ T = TypeVar("T")
 Control: TypeAlias = Generator[None, None, T]
 """A controller: it sets the wheels, yields for one time step, returns a `T`."""
 
-NEAR = 0.003
-"""A place is reached within so many metres."""
 CREEP = 0.02
 """Slowest speed ahead, in metres a second."""
-SURE = 0.05**2
-"""Below this variance, in squared radians, a heading is known."""
 LOOKS = 3
 """Answers of the rangers that a robot waits for to be sure."""
 
@@ -67,7 +63,7 @@ def go(robot: Robot, distance: float, keep: float = -math.inf) -> Control[Reason
     way = 1.0 if distance >= 0 else -1.0
     reason = Reason.DONE
     while (remaining := way * (goal - robot.odometer)) > NEAR:
-        if way > 0 and robot.ahead - keep <= NEAR:
+        if way > 0 and robot.is_blocked(keep):
             reason = Reason.BLOCKED
             break
         if way > 0:
@@ -114,7 +110,7 @@ def approach(robot: Robot, primitive: Approach) -> Control[Outcome]:
     hits, place, aside = 0, start, False
     reason = Reason.DONE
     while (remaining := primitive.limit - way * (robot.odometer - start)) > NEAR:
-        if forward and robot.ahead - limit_ahead <= NEAR:
+        if forward and robot.is_blocked(limit_ahead):
             seen = look_ahead and limit_ahead == within
             reason = Reason.SEEN if seen else Reason.BLOCKED
             break

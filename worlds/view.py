@@ -29,6 +29,22 @@ class View:
         """What each ranger said last, in metres from its mount."""
         self._swath = profile.parameters.r_min
         self._mounts = [_mount(ranger) for ranger in profile.rangers]
+        self._aside = 0.0
+
+    def step_aside(self, way: float) -> None:
+        """Tell everything as seen from where the robot was before it went sideways.
+
+        By `way` metres to the left, which are added to those of earlier calls.
+        """
+        self._aside += way
+        self._mounts = [
+            (x, y + way, cos, sin, side) for x, y, cos, sin, side in self._mounts
+        ]
+
+    @property
+    def aside(self) -> float:
+        """How far to the left of where it says the robot is, in metres."""
+        return self._aside
 
     def take(self, answers: Iterable[float]) -> None:
         """Take in new answers.

@@ -40,7 +40,8 @@ def build_all(body):
     for world, start in SCENES:
         robot = body(world, start, ROBOT, np.random.default_rng(1), 0.0)
         walk = run(
-            map_boundary(ROBOT, make_closer("likelihood", 0.0, ROBOT), 500), robot
+            map_boundary(ROBOT, make_closer("likelihood", 0.0, ROBOT, slip=0.0), 500),
+            robot,
         )
         fold(walk, ROBOT, 0.0)
 

@@ -16,8 +16,9 @@ import numpy as np
 
 from evidence.dempster_shafer import PublishedRule, Readings
 from evidence.likelihood import LikelihoodRule
+from evidence.likelihood_trials import likelihood_trials
 from evidence.phi import Freedom, Variance
-from evidence.trials import likelihood_trials, published_trials
+from evidence.published_trials import published_trials
 from topomap.experiments.shapes import CLASSES
 from topomap.experiments.walking import deviations, laps_for, slipped, walks
 from topomap.experiments.wilson import wilson_interval
@@ -36,7 +37,7 @@ def measure(name, sigma, args, told=1.0, noise="model"):
     """Return one row: counts for both rules over all worlds of a class."""
     rng = np.random.default_rng([args.seed, *name.encode()])
     noises = np.random.default_rng([args.seed, round(1e4 * sigma), *noise.encode()])
-    rule = LikelihoodRule(full_lap=args.full_lap, epsilon=args.epsilon)
+    rule = LikelihoodRule(full_lap=args.full_lap, epsilon=args.epsilon, slip=args.slip)
     counts = np.zeros((2, 3), dtype=int)  # rule by right, wrong, undecided
     silent, extra, stated = 0, [], []
     for _ in range(args.worlds):
@@ -115,6 +116,7 @@ def main():
     parser.add_argument("--runs", type=int, default=10_000, help="per cell")
     parser.add_argument("--full-lap", action="store_true")
     parser.add_argument("--epsilon", type=float, default=1e-4)
+    parser.add_argument("--slip", type=float, default=0.0)
     parser.add_argument("--readings", action="store_true")
     parser.add_argument("--seed", type=int, default=2026)
     args = parser.parse_args()

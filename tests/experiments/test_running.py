@@ -4,13 +4,17 @@ import os
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 
 import pytest
 
 from topomap import InputError
 from topomap.experiments.catalogue import catalogue, find
+from topomap.experiments.experiment import run_task, tasks_of
+from topomap.experiments.halls import worse
 from topomap.experiments.reporting import sums, table, write_report
 from topomap.experiments.running import read_done, run_experiment
+from worlds.profiles import GENERIC
 
 NOISE = find("mapping-noise")
 
@@ -68,6 +72,43 @@ def test_the_table_has_a_row_a_cell_with_intervals(alone, tmp_path):
     total = sums(alone)
     assert all(cell["trials"] == 3 for cell in total.values())
     assert table(NOISE, total) in text
+
+
+def test_means_are_over_the_runs_that_gave_what_is_measured():
+    halls = find("halls-physical")
+    some = {"trials": 4, "mapped": 2, "correct": 2, "vertices": 30}
+    none = {"trials": 4, "failed: lost": 4}
+    rows = table(halls, {0: some, 1: none}).splitlines()
+    column = rows[0].split(" | ").index("vertices")
+    assert [row.split(" | ")[column] for row in rows[2:]] == ["15", "-"]
+    column = rows[0].split(" | ").index("correct")
+    assert rows[2].split(" | ")[column].startswith("50.00 %")
+
+
+def test_what_is_worse_in_halls_limits_is_as_much_worse_as_it_says():
+    rangers, turns, radius, lengths = (
+        worse(what, 0.6 if "radius" in what else 2.0)
+        for what in (
+            "noise of rangers, times",
+            "slip, drift and turns, times",
+            "radius / r_w",
+            "error of lengths",
+        )
+    )
+    assert lengths == (2.0, GENERIC)
+    assert rangers[1].rangers[1].noise_growth == 2 * GENERIC.rangers[1].noise_growth
+    assert rangers[1].rangers[0].noise == 2 * GENERIC.rangers[0].noise
+    assert turns[1].turn_error == 2 * GENERIC.turn_error
+    assert turns[1].rangers == GENERIC.rangers
+    assert radius[1].radius == pytest.approx(0.12)
+    assert {sigma for sigma, _ in (rangers, turns, radius)} == {0.06}
+
+
+def test_each_cell_of_halls_limits_maps_worlds():
+    limits = find("halls-limits")
+    (task, *_) = tasks_of(replace(limits, batch_size=1), 1, seed=0)
+    tallies = run_task(limits, task)
+    assert tallies["trials"] == tallies["mapped"] == 1
 
 
 def test_every_experiment_has_cells_with_the_same_conditions():

@@ -78,7 +78,11 @@ def test_command_prints_one_object(tmp_path):
     path = tmp_path / "costs.csv"
     path.write_text("20,20,15,19\n25,15,10,16\n,,,\n")
     answer = run(path, "--allocator", "mpg", "--json")
-    assert json.loads(answer.output) == {"assignment": [0, 2, None]}
+    assert json.loads(answer.output) == {
+        "assignment": [0, 2, None],
+        "costs": [20, 10, None],
+        "waits": [False, False, False],
+    }
     assert answer.exit_code == 0
 
 

@@ -9,14 +9,15 @@ import typer
 from typer.testing import CliRunner
 
 from topomap.errors import InputError
-from topomap.experiments import exploring
+from topomap.experiments import exploring_batches as exploring
 from topomap.experiments.catalogue import find
 from topomap.experiments.experiment import run_task, tasks_of
 from topomap.experiments.ratios import average_ratio, main, ratio_table, read_times
 from topomap.experiments.running import run_experiment
+from topomap.exploration.starts import largest_region
 
 
-@pytest.mark.parametrize("name", ["stable", "deciding", "trees"])
+@pytest.mark.parametrize("name", ["stable", "deciding", "trees", "hindsight"])
 def test_a_batch_gives_times_of_every_allocator(name, monkeypatch):
     experiment = find(f"exploring-{name}")
     if name == "deciding":
@@ -28,6 +29,9 @@ def test_a_batch_gives_times_of_every_allocator(name, monkeypatch):
         monkeypatch.setattr(
             exploring, "maze", lambda rng, _, **how: whole(rng, 17, **how)
         )
+    if name == "hindsight":
+        small = partial(exploring.maze, size=25)
+        monkeypatch.setitem(exploring.WORLDS, "maze", small)
     (task, *_) = tasks_of(experiment, 1, seed=0)
     tallies = run_task(experiment, task)
     assert tallies["trials"] == 1
@@ -36,12 +40,14 @@ def test_a_batch_gives_times_of_every_allocator(name, monkeypatch):
     for share in experiment.shares:
         assert tallies[share] in (0, 1)
     assert tallies == run_task(experiment, task)
+    if name == "hindsight":
+        assert tallies["least"] <= min(tallies[each] for each in experiment.means)
     if name == "trees":
         assert all(tallies[each] >= tallies["bound"] for each in exploring.NAMES)
 
 
 def test_weights_that_do_not_count_leave_the_nearest_frontier(monkeypatch):
-    monkeypatch.setattr(exploring, "grid_world", partial(_small_world))
+    monkeypatch.setitem(exploring.WORLDS, "maze", partial(exploring.maze, size=25))
     tallies = exploring.search_weights(
         {"world": "maze", "robots": 2}, np.random.default_rng(0), 1
     )
@@ -49,8 +55,12 @@ def test_weights_that_do_not_count_leave_the_nearest_frontier(monkeypatch):
     assert len({tallies[name] for name in exploring.WEIGHTS}) > 1
 
 
-def _small_world(kind, rng):
-    return exploring.maze(rng, 25)
+@pytest.mark.parametrize("kind", exploring.WORLDS)
+def test_worlds_of_experiments_are_closed_and_in_one_piece(kind):
+    free = exploring.WORLDS[kind](np.random.default_rng(3))
+    assert not free[[0, -1]].any()
+    assert not free[:, [0, -1]].any()
+    assert largest_region(free).sum() == free.sum()
 
 
 @pytest.mark.parametrize(
@@ -62,6 +72,8 @@ def _small_world(kind, rng):
         "streets",
         "stable",
         "trees",
+        "crowds",
+        "hindsight",
         "weights",
         "groups",
         "observing",
@@ -91,7 +103,12 @@ def test_ratios_are_read_from_the_file_of_a_run(tmp_path):
     assert f"{ratio:.3f} [" in lines[2]
     app = typer.Typer()
     app.command()(main)
-    shown = CliRunner().invoke(app, [str(path), "greedy", "--seed", "5"]).output
+    picture = tmp_path / "ratios.svg"
+    words = [str(path), "greedy", "--seed", "5", "--plot", str(picture)]
+    shown = CliRunner().invoke(app, words).output
+    drawn = picture.read_text()
+    assert "time by that of greedy" in drawn
+    assert "robots, stable" in drawn
     assert shown.startswith("\n".join(lines))
     assert "routes by the best of the others" in shown
     with pytest.raises(InputError, match="seed: expected a file with runs of this"):

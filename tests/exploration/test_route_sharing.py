@@ -1,5 +1,6 @@
 """Routes visit every place once, cannot be bettered by a move, and robots keep them."""
 
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
@@ -9,7 +10,7 @@ from hypothesis import strategies as st
 
 from topomap.errors import InputError
 from topomap.exploration import Details, Settings, explore_grid, routes
-from topomap.exploration.grid_worlds import office
+from topomap.exploration.grid_worlds import maze, office, stable
 from topomap.exploration.starts import central_starts
 
 
@@ -163,8 +164,42 @@ def test_two_robots_explore_an_office_without_swinging():
 
 
 @pytest.mark.parametrize(
-    ("name", "value"), [("pace", 0), ("keep", -1), ("part", float("nan"))]
+    ("name", "value"),
+    [("pace", 0), ("keep", -1), ("part", float("nan")), ("fade", 0), ("fade", 1.5)],
 )
 def test_weights_that_cannot_be_are_refused(name, value):
-    with pytest.raises(InputError, match=f"{name}: expected a finite number"):
+    with pytest.raises(InputError, match=f"{name}: expected a .*number"):
         routes(np.ones((1, 1)), Details(), **{name: value})
+
+
+def test_rock_behind_stalls_counts_less_with_depth():
+    free, starts = stable(8)
+    aside = np.array([0, 1])
+    totals = [
+        sum(
+            explore_grid(free, shifted, Settings(choice, reach=20, limit=500)).time
+            for shifted in (starts - aside, starts, starts + aside)
+        )
+        for choice in (partial(routes, fade=0.7), "routes")
+    ]
+    assert totals[0] < 0.9 * totals[1]
+
+
+def test_without_news_all_keep_to_their_frontiers():
+    costs = np.array([[1.0, 9.0, np.inf], [np.inf, 9.0, 1.0], [np.inf, np.inf, np.inf]])
+    previous = np.array([1, 1, -1])
+    free = [0, 2, -1]
+    assert routes(costs, Details(previous=previous, news=3)).tolist() == free
+    assert routes(costs, Details(previous=previous, news=0)).tolist() == [1, 1, -1]
+    gone = np.array([2, 1, -1])  # the first robot cannot reach it any more
+    assert routes(costs, Details(previous=gone, news=0)).tolist() == free
+    arrived = np.array([-1, 1, -1])
+    assert routes(costs, Details(previous=arrived, news=0)).tolist() == free
+
+
+def test_one_robot_does_not_swing_between_two_plans():
+    # Planned anew at every step, the plan flips between two cells of this maze.
+    rng = np.random.default_rng([0, 1933225767, 386405042, 1])
+    free = maze(rng)
+    starts = central_starts(free, 1, rng)
+    assert explore_grid(free, starts, Settings("routes", reach=8, limit=1000)).complete

@@ -334,3 +334,48 @@ def test_the_command_reads_a_file_and_says_that_it_gave_up(tmp_path):
     assert run_command(path, "--robots", 1, "--reach", 3).exit_code == 0
     given_up = run_command(path, "--robots", 1, "--reach", 3, "--limit", 2)
     assert str(given_up.exception) == "not explored after 2 steps"
+
+
+def test_the_command_lets_robots_act_in_their_own_time():
+    slow = run_command("stable", "--robots", 2, "--own-time", "--json")
+    fast = run_command(
+        "stable", "--robots", 2, "--own-time", "--speeds", "2,2", "--json"
+    )
+    slow, fast = json.loads(slow.output), json.loads(fast.output)
+    assert fast["seconds"] == pytest.approx(slow["seconds"] / 2)
+    assert fast["travelled"] == slow["travelled"]
+    rarely = run_command(
+        "stable", "--robots", 2, "--own-time", "--observe", 8, "--decide", 8, "--json"
+    )
+    assert json.loads(rarely.output)["seconds"] > slow["seconds"]
+    for words in (("--speeds", "2,2"), ("--observe", 2), ("--decide", 2)):
+        refused = run_command("stable", "--robots", 2, *words)
+        assert "--own-time: expected it with --speeds" in str(refused.exception)
+
+
+def test_the_command_reads_a_world(tmp_path):
+    from topomap.files.world_files import save_world
+    from worlds.world import make_world
+
+    corridor = make_world([(0, 0), (2.1, 0), (2.1, 0.3), (0, 0.3)])
+    save_world(corridor, tmp_path / "corridor.json")
+    words = (tmp_path / "corridor.json", "--robots", 1, "--reach", 3, "--json")
+    seeing_all = json.loads(run_command(*words, "--cell", 0.3).output)
+    assert seeing_all["steps"] == 0
+    assert json.loads(run_command(*words).output)["steps"] > 10
+
+
+def test_the_command_takes_waits_and_exchanges(monkeypatch):
+    from topomap import exploration
+
+    seen = []
+    whole = exploration.explore_grid
+
+    def note(free, starts, choice, rng):
+        seen.append((choice.wait, choice.exchange))
+        return whole(free, starts, choice, rng)
+
+    monkeypatch.setattr(exploration, "explore_grid", note)
+    assert run_command("stable", "--robots", 2, "--wait", 3).exit_code == 0
+    assert run_command("stable", "--robots", 2, "--exchange").exit_code == 0
+    assert seen == [(3, False), (0, True)]

@@ -21,8 +21,8 @@ from topomap.incursions.search import hidden_space, rays_through, spots_of
 from topomap.incursions.sureness import driven_sureness
 from topomap.merging import merge_maps
 from topomap.parts import base_map, compare_wholes, in_one, islands, parts
-from topomap.routes.driving import match_world
 from topomap.routes.limits import shortest_ways, true_lengths
+from topomap.routes.matching import match_world
 from topomap.routes.steps import Arrival
 from topomap.truth import true_map, true_maps
 from worlds.sweeping import pieces

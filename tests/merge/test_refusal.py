@@ -184,6 +184,7 @@ def test_probability_falls_with_the_score_and_grows_with_rivals_and_trials():
         ("angle", 1.0, "angle must lie between 0.0 and 0.78539"),
         ("reach", 0.0, "reach must lie between 0.0 and inf; got 0.0"),
         ("false_merge", 1.0, "false_merge must lie between 0.0 and 1.0; got 1.0"),
+        ("twins", 1.0, "twins must lie in \\[0, 1\\); got 1.0"),
         ("least", 1, "least must be at least 2 vertices; got 1"),
     ],
 )
@@ -192,12 +193,25 @@ def test_options_out_of_range(name, value, message):
         Options(**{name: value})
 
 
+def test_where_twins_are_likely_a_match_is_told_and_refused():
+    rng = np.random.default_rng(5)
+    maze = perturb(make_maze(6, 6, rng), 0.02, rng)
+    sure = match(maze, maze)
+    assert sure.accepted
+    doubted = match(maze, maze, Options(twins=0.05))
+    assert not doubted.accepted
+    assert "may have another part like them" in doubted.reason
+    assert doubted.false_merge_probability == pytest.approx(0.05, abs=1e-6)
+    assert (doubted.pairs == sure.pairs).all()
+    assert match(maze, maze, Options(twins=5e-4)).accepted
+
+
 def told_share(graph, vertices):
     """Return how much of a map's match with a part of itself copies explain."""
     vertices = np.array(vertices)
     part = lay_out(cut(graph, vertices))
     score = grow_hypotheses(part, lay_out(graph), Options()).score.max()
-    copies = find_copies(graph, lay_out(graph), vertices, Options())
+    copies = find_copies(lay_out(graph), vertices, Options())
     return told_by_copies([copies], len(vertices), score) / score
 
 

@@ -18,10 +18,11 @@ from topomap.cli import main
 from topomap.closers import make_closer
 from topomap.exploring import explore_halls
 from topomap.files.world_files import save_world
-from topomap.routes.driving import drive_route, match_world
+from topomap.routes.driving import drive_route
 from topomap.routes.hall_belief import Standing, begun, moved, surest
 from topomap.routes.hall_places import has_halls, places_of
 from topomap.routes.limits import true_lengths
+from topomap.routes.matching import match_world
 from topomap.routes.planning import Router, plan_route
 from topomap.routes.steps import walk_wall
 from topomap.truth import true_map, true_maps

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from tests.incursions.scenes import random_world
 from topomap import InputError, JobError, build_map
 from topomap.routes.costs import all_distances, cost_of
-from topomap.routes.driving import drive_route, match_world
+from topomap.routes.driving import drive_route
+from topomap.routes.matching import match_world
 from topomap.routes.planning import plan_route
 from topomap.truth import true_map
 from worlds.world import make_world

@@ -26,7 +26,7 @@ def explored(robot, seed, world=1, walls=10_000):
     body = IdealBody(
         place, choose_start(place, PARAMETERS, rng), PARAMETERS, rng, SIGMA
     )
-    closer = make_closer("likelihood", SIGMA, PARAMETERS)
+    closer = make_closer("likelihood", SIGMA, PARAMETERS, slip=0.0)
     found = run(explore_halls(PARAMETERS, closer, SIGMA, walls), body)
     return Knowledge(robot, found.chart)
 

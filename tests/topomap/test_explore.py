@@ -12,15 +12,16 @@ from hypothesis import strategies as st
 import worlds
 from behaviours import Parameters
 from behaviours.opposite import opposite
-from behaviours.port import Side, run
+from behaviours.port import Approach, Move, Outcome, Readings, Reason, Side, run
 from behaviours.probe import probe
 from behaviours.travel import travel
 from behaviours.vertices import VertexType
 from tests.worlds.hall_class import census
-from topomap import build_map, compare_maps, exploring
+from topomap import build_map, compare_maps, walking
 from topomap.closers import make_closer
-from topomap.errors import InputError
-from topomap.hall_truth import _without_straight, true_hall_maps
+from topomap.errors import InputError, JobError
+from topomap.hall_loops import _without_straight
+from topomap.hall_truth import true_hall_maps
 from topomap.truth import true_map, true_maps
 from worlds.errors import WorldError
 from worlds.ideal import IdealBody
@@ -245,7 +246,10 @@ def test_the_wall_opposite_is_examined_and_left_again():
         # An opening that begins 10 cm from a corner of the room.
         (((0, 0, 3, 3), (3, 0.1, 5, 0.6)), "from the corner beside it"),
         # Two halls at one corner.
-        (((0, 0, 3, 3), (3, 0, 5, 0.5), (2.5, -2, 3, 0)), "one hall at an inner"),
+        (
+            ((0, 0, 3, 3), (3, 0, 5, 0.5), (2.5, -2, 3, 0)),
+            "another hall opens at the same inner",
+        ),
         # A crossing whose halls are shifted against each other.
         (
             ((0, 0, 2, 2), (2, 0.8, 6, 1.3), (4, 1.3, 4.5, 3), (4.3, -1, 4.8, 0.8)),
@@ -280,7 +284,7 @@ class Hasty:
 
     def __init__(self, period):
         self.period = period
-        self.closer = make_closer("likelihood", 0.0, ROBOT)
+        self.closer = make_closer("likelihood", 0.0, ROBOT, slip=0.0)
 
     def begin(self, kind, turn):
         self.closer.begin(kind, turn)
@@ -306,6 +310,67 @@ def test_a_closure_that_does_not_fit_the_place_is_not_acted_on(period):
 
 
 @pytest.mark.parametrize("slips_at", [25, 29, 31])
+class Bumping:
+    """A body that now and then touches something on its way, and draws back."""
+
+    def __init__(self, body, every):
+        self.body = body
+        self.every = every
+        self.asked = 0
+        self.bumps = 0
+
+    def __getattr__(self, name):
+        return getattr(self.body, name)
+
+    def execute(self, primitive):
+        self.asked += 1
+        if self.asked % self.every:
+            return self.body.execute(primitive)
+        self.bumps += 1
+        part = Outcome(0.0, Reason.DONE, Readings())
+        if isinstance(primitive, Move):
+            part = replace(primitive, distance=primitive.distance / 3)
+            part = self.body.execute(part)
+        elif isinstance(primitive, Approach):
+            limit = min(primitive.limit / 3, 0.1)
+            part = self.body.execute(replace(primitive, limit=limit))
+        return (
+            replace(part, reason=Reason.BUMPED) if part.reason is Reason.DONE else part
+        )
+
+
+@pytest.mark.parametrize(("kind", "every"), [("halls", 3), ("rooms", 5), ("maze", 2)])
+def test_a_robot_that_bumps_builds_the_map_of_one_that_does_not(kind, every):
+    world = worlds.make(kind, np.random.default_rng(3))
+    bodies = []
+
+    def watch(body):
+        bodies.append(Bumping(body, every))
+        return bodies[0]
+
+    smooth, bumpy = (
+        build_map(world, np.random.default_rng(7), sigma=0.0, watch=how)
+        for how in (None, watch)
+    )
+    assert bodies[0].bumps > 50
+    assert bumpy.correct
+    assert compare_maps(bumpy.map, smooth.map).correct
+    assert bumpy.travelled == pytest.approx(smooth.travelled)
+
+
+def test_a_robot_that_is_stuck_while_it_looks_round_says_so():
+    class Stuck:
+        def __init__(self, body):
+            self.parameters = body.parameters
+
+        def execute(self, _):
+            return Outcome(0.0, Reason.STUCK, Readings())
+
+    world = worlds.make("halls", np.random.default_rng(3))
+    with pytest.raises(JobError, match=r"State.LOOK has no arrow for stuck"):
+        build_map(world, np.random.default_rng(0), watch=Stuck)
+
+
 def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, slips_at):
     """One edge is measured 3 m too long; another walk along it tells."""
     walked = 0
@@ -317,7 +382,7 @@ def test_a_map_that_is_refuted_is_unfolded_and_the_robot_goes_on(monkeypatch, sl
         arrival = yield from travel(*args)
         return replace(arrival, length=arrival.length + off)
 
-    monkeypatch.setattr(exploring, "travel", travelled)
+    monkeypatch.setattr(walking, "travel", travelled)
     built = build_map(TWO_ROOMS, np.random.default_rng(1), sigma=0.0, max_walls=150)
     assert len(built.refuted) == 1
     assert "was expected" in built.refuted[0]

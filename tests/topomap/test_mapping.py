@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 import worlds
 from behaviours import Parameters
 from topomap import InputError, JobError, build_map
-from topomap.bodies import body_parameters
-from topomap.closers import CLOSINGS, make_closer
+from topomap.bodies import body_parameters, body_slip
+from topomap.closers import CLOSINGS, SLIP, make_closer
 from topomap.directions import same_direction
 from worlds.errors import WorldError
 from worlds.pose import Pose
@@ -161,6 +161,24 @@ def test_bad_input_is_named(changes, error, message):
 def test_a_closers_sigma_is_checked():
     with pytest.raises(InputError, match=r"sigma: expected a part of the length"):
         make_closer("likelihood", 0.7, Parameters())
+
+
+def test_a_robot_whose_corners_may_slip_meets_every_wall_twice():
+    world = worlds.make("random", np.random.default_rng(3), corners=20)
+    closer = make_closer("likelihood", 0.05, Parameters())
+    exact, careful = (
+        build_map(world, np.random.default_rng(2), sigma=0.05, closing=closing)
+        for closing in ("likelihood", closer)
+    )
+    assert exact.correct
+    assert careful.correct
+    assert exact.walls < careful.walls == 40
+
+
+def test_bodies_say_how_often_their_corners_slip():
+    assert 0 == body_slip("ideal") < body_slip("physical") < SLIP
+    with pytest.raises(InputError, match="body"):
+        body_slip("ghost")
 
 
 def test_a_world_with_oblique_walls_is_refused():

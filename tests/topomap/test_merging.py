@@ -55,7 +55,7 @@ def test_maps_that_no_one_map_can_hold_are_refused(monkeypatch):
     def contradictory(*_):
         raise InputError("", "vertices[3].exits_deg[1]", 90.0, "another direction")
 
-    monkeypatch.setattr("topomap.merging._chart", contradictory)
+    monkeypatch.setattr("topomap.merging.map_of_group", contradictory)
     found = merge_maps([truth(5), truth(5)], force=True)
     assert not found.accepted
     assert found.map is None
@@ -105,13 +105,14 @@ def test_command_writes_map_picture_and_one_json_object(tmp_path, capsys):
 
 def test_refused_merge_writes_nothing_unless_forced(tmp_path, capsys):
     paths = write(tmp_path, truth(1), truth(2))
-    out = tmp_path / "merged.json"
-    assert main(["merge", *paths, "-o", str(out)]) == 3
+    out, drawn, page = (tmp_path / f"merged.{end}" for end in ("json", "svg", "html"))
+    files = ["-o", str(out), "--plot", str(drawn), "--page", str(page)]
+    assert main(["merge", *paths, *files]) == 3
     assert "topomap: merge refused: map 2 does not" in capsys.readouterr().err
-    assert not out.exists()
-    assert main(["merge", *paths, "-o", str(out), "--force"]) == 0
+    assert not any(path.exists() for path in (out, drawn, page))
+    assert main(["merge", *paths, *files, "--force"]) == 0
     assert "forced, not sure" in capsys.readouterr().out
-    assert out.exists()
+    assert all(path.exists() for path in (out, drawn, page))
 
 
 def lone():
@@ -133,11 +134,13 @@ def test_too_little_to_merge_is_bad_input(maps, message):
 
 def test_share_out_of_range_is_bad_input(tmp_path, capsys):
     paths = write(tmp_path, truth(1), truth(1))
-    code = main(["merge", *paths, "-o", "x.json", "--false-merge", "0"])
-    assert code == 2
-    assert "--false-merge: expected a share in (0, 1); got 0.0" in (
-        capsys.readouterr().err
-    )
+    for option, value, wanted in (
+        ("--false-merge", "0", "a share in (0, 1); got 0.0"),
+        ("--twins", "1", "a share in [0, 1); got 1.0"),
+    ):
+        code = main(["merge", *paths, "-o", "x.json", option, value])
+        assert code == 2
+        assert f"{option}: expected {wanted}" in capsys.readouterr().err
 
 
 def test_two_worker_processes_and_a_cluster_of_two_say_what_one_process_says(

@@ -24,6 +24,16 @@ def test_overlapping_maps_are_merged_and_strangers_refused(overlap, outcome):
     assert tallies == again
 
 
+def test_half_of_any_pairs_are_of_one_maze_and_meet():
+    cell = {**CELL, "overlap": "any", "reliability": 1}
+    tallies = merging.merge_mazes(cell, np.random.default_rng(0), 40)
+    assert 5 <= tallies["correct"] <= 25
+    assert tallies["false"] == 0
+    assert sum(tallies[key] for key in ("correct", "refused")) == 40
+    stated = sum(tallies.get(f"bin {k} n", 0) for k in range(8))
+    assert tallies["correct"] <= stated <= 40
+
+
 def test_floor_plans_are_asked_for_where_they_are_not(monkeypatch, tmp_path):
     monkeypatch.setenv("TOPOMAP_DATA", str(tmp_path))
     merging_plans._plans.cache_clear()

@@ -11,7 +11,9 @@ from matplotlib.figure import Figure
 import worlds
 from tests.page.runs import build_run, grid_map, merge_run
 from topomap import plot
+from topomap.build_drawing import fill_figure
 from topomap.drawing import save_picture
+from topomap.mapping import build_map
 from topomap.topological_map import TopologicalMap, Vertex
 from worlds.world import World, make_world
 
@@ -41,6 +43,23 @@ def drawings():
     yield "build", lambda ax: plot.draw_build(built, world, ax)
     yield "belief", lambda ax: plot.draw_belief(built.walk, ax)
     yield "overlay", lambda ax: plot.draw_overlay(found, charts, ax)
+
+
+def test_beyond_halls_the_timeline_holds_every_recognition():
+    world = worlds.make("rooms", np.random.default_rng(2))
+    built = build_map(world, np.random.default_rng(2), sigma=0.05)
+    figure = Figure()
+    fill_figure(built, world, figure)
+    ax = figure.axes[-1]
+    assert ax.get_xlabel() == "walls walked in all"
+    drawn = {(x, y) for line in ax.lines for x, y in line.get_xydata()}
+    assert drawn == {
+        (found.walls, max((p for _, p in found.candidates), default=0.0))
+        for found in built.recognitions
+    }
+    assert len(ax.lines) == len({found.vertex for found in built.recognitions})
+    assert max(x for x, _ in drawn) <= built.walls
+    assert len({x for x, _ in drawn}) > 1
 
 
 @pytest.mark.parametrize("name", [name for name, _ in drawings()])

@@ -32,9 +32,9 @@ from worlds.profiles import GENERIC, PROFILES
 from worlds.world import make_world
 
 
-def body_in(ring, pose, profile=GENERIC, seed=0):
+def body_in(ring, pose, profile=GENERIC, seed=0, sigma=0.0):
     rng = np.random.default_rng(seed)
-    return PhysicalBody(Arena(make_world(ring)), Pose(*pose), profile, rng, 0.0)
+    return PhysicalBody(Arena(make_world(ring)), Pose(*pose), profile, rng, sigma)
 
 
 def wall_with_opening(width, thickness=1.0):
@@ -123,6 +123,50 @@ def test_no_hall_is_centred_in_or_followed_in_open_space():
     outcome = body.execute(Follow(Guide.HALL))
     assert outcome.reason is Reason.WIDENED
     assert outcome.distance == pytest.approx(0.0, abs=0.01)
+
+
+@pytest.mark.parametrize("side", list(Side))
+@pytest.mark.parametrize("width", [0.43, 0.445, 0.45, 0.455, 0.46])
+def test_a_jamb_at_the_rim_of_the_way_is_there_or_not_but_not_both(width, side):
+    # The hall goes on from the followed wall, r0 away: its other jamb stands r_min
+    # from the middle of the way, where one reading has it in the way, the next not.
+    ring = [(0, 0), (5, 0), (5, width), (3, width), (3, 3), (0, 3)]
+    if side is Side.LEFT:
+        ring = [(x, -y) for x, y in reversed(ring)]
+    for seed in range(8):
+        y = -0.3 * side.value
+        body = body_in(ring, (0.6, y, 0.0), seed=seed, sigma=0.06)
+        body.execute(Align(side))
+        split = run(follow_broken_wall(body.parameters, None, side), body)
+        assert split.type is VertexType.SPLIT
+        assert body.pose[:2] == pytest.approx((2.7, y), abs=0.04)
+
+
+@pytest.mark.parametrize(
+    ("across", "type_"), [(0.74, VertexType.PORTAL), (0.54, VertexType.SPLIT)]
+)
+def test_ranges_tell_a_hall_across_from_a_room_where_the_odometer_does_not(
+    across, type_
+):
+    far = 2 + across
+    ring = [(0, 0), (2, 0), (2, -2), (far, -2), (far, 3), (2, 3), (2, 0.45), (0, 0.45)]
+    for seed in range(50, 56):
+        body = body_in(ring, (0.5, 0.225, 0.0), seed=seed, sigma=0.06)
+        assert run(follow_hall(body.parameters), body).type is type_
+
+
+def test_a_wall_ahead_corrects_the_odometer():
+    room = [(0, 0), (4, 0), (4, 3), (0, 3)]
+    drive = Approach((Sensor.RIGHT,), 0.5, keep=0.1, limit=0.4, until=Until.LOST)
+    ways, counts = [], []
+    for seed in range(12):
+        body = body_in(room, (3.3, 0.3, 0.0), seed=seed, sigma=0.15)
+        outcome = body.execute(drive)
+        assert outcome.reason is Reason.DONE
+        ways.append(body.pose[0] - 3.3)
+        counts.append(outcome.distance)
+    assert max(abs(way - 0.4) for way in ways) < 0.05
+    assert max(abs(count - 0.4) for count in counts) > 0.08
 
 
 def test_what_was_ahead_before_a_turn_is_known_beside_after_it():

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-__all__ = ["allocate"]
+__all__ = ["allocate", "read_speeds"]
 
 
 def allocate(
@@ -36,11 +36,19 @@ def allocate(
     allocation = choose(
         read_costs(costs),
         allocator,
-        speeds=None if speeds is None else _speeds(speeds),
+        speeds=None if speeds is None else read_speeds(speeds),
         exchange=exchange,
     )
     if as_json:
-        typer.echo(json.dumps({"assignment": allocation.assignment}))
+        typer.echo(
+            json.dumps(
+                {
+                    "assignment": allocation.assignment,
+                    "costs": allocation.costs,
+                    "waits": allocation.waits,
+                }
+            )
+        )
         return
     for robot, (frontier, cost) in enumerate(
         zip(allocation.assignment, allocation.costs, strict=True)
@@ -52,7 +60,7 @@ def allocate(
         typer.echo(f"robot {robot} {where}{wait}")
 
 
-def _speeds(text: str) -> list[float]:
+def read_speeds(text: str) -> list[float]:
     """Return the numbers of a list with commas, or say which is none."""
     from topomap.errors import InputError
 

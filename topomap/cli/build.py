@@ -90,7 +90,7 @@ def build(
     """Let one robot build the map of all it can reach along walls and halls."""
     import numpy as np
 
-    from topomap.bodies import body_parameters
+    from topomap.bodies import body_parameters, body_slip
     from topomap.cli.console import naming, say, show_json, watched
     from topomap.closers import make_closer
     from topomap.drawing import check_picture
@@ -128,14 +128,15 @@ def build(
         from topomap.page.html import check_page
 
         check_page(page)
+    lengths, slip = body_parameters(body), body_slip(body)
     about = {"body": body, "sigma": sigma, "seed": seed, "closing": closing}
-    about |= {"max_walls": max_walls, "improve": improve}
+    about |= {"slip": slip, "max_walls": max_walls, "improve": improve}
     onlooker = None if page is None else _onlooker(place, sigma, body)
     began = time.perf_counter()
     with (
         naming(world),
         _logged(log, place, about) as recorder,
-        watched(make_closer(closing, sigma, body_parameters(body))) as closer,
+        watched(make_closer(closing, sigma, lengths, slip=slip)) as closer,
     ):
         lookers = [looker for looker in (onlooker, recorder) if looker is not None]
         for looker in lookers:

@@ -28,6 +28,9 @@ def merge(
     false_merge: Annotated[
         float, typer.Option(help="Refuse if the merge is likelier to be wrong.")
     ] = 1e-3,
+    twins: Annotated[
+        float, typer.Option(help="Chance that a part like this exists once more.")
+    ] = 0.0,
     doors: Annotated[
         bool, typer.Option(help="A vertex may differ in one exit.")
     ] = False,
@@ -62,6 +65,8 @@ def merge(
 
     if not 0 < false_merge < 1:
         raise InputError("merge", "--false-merge", false_merge, "a share in (0, 1)")
+    if not 0 <= twins < 1:
+        raise InputError("merge", "--twins", twins, "a share in [0, 1)")
     if page is not None:
         from topomap.page.html import check_page
 
@@ -70,6 +75,7 @@ def merge(
     began = time.perf_counter()
     options = Options(
         false_merge=false_merge,
+        twins=twins,
         doors=doors,
         tolerate_rim=tolerate_rim,
         compiled=sum(len(chart.vertices) for chart in charts) > FEW,
@@ -79,25 +85,27 @@ def merge(
     elapsed = time.perf_counter() - began
     if found.map is not None:
         save_map(found.map, output)
-    if plot is not None:
+    kept = found.accepted or force
+    if plot is not None and kept:
         from topomap.drawing import save_figure
         from topomap.merge_drawing import draw_merge
 
         save_figure(plot, lambda figure: draw_merge(found, charts, figure))
-    if page is not None:
+    if page is not None and kept:
         from topomap.page import recording_of_merge, save_page
 
         names = [path.stem for path in maps]
         save_page(recording_of_merge(found, charts, names), page)
     if as_json:
         show_json(summary(found, elapsed))
-    if found.map is None or not (found.accepted or force):
+    if found.map is None or not kept:
         raise JobError(f"merge refused: {found.reason}")
     if not as_json:
         said = "merged" if found.accepted else f"forced, not sure: {found.reason};"
         say(
             f"{said} {found.matched_vertices} places that several maps have; wrong "
-            f"with probability {found.false_merge_probability:.2g}; wrote {output}"
+            f"with probability at most {found.false_merge_probability:.2g}; "
+            f"wrote {output}"
         )
 
 

@@ -42,7 +42,8 @@ def route(
     from topomap.errors import JobError
     from topomap.files.map_files import load_map
     from topomap.files.world_files import load_world
-    from topomap.routes.driving import drive_route, match_world
+    from topomap.routes.driving import drive_route
+    from topomap.routes.matching import match_world
     from topomap.routes.planning import plan_route
 
     loaded = load_map(chart)

@@ -19,7 +19,7 @@ from behaviours.vertices import VertexType
 from evidence.dempster_shafer import PublishedRule
 from evidence.likelihood import LikelihoodRule
 from evidence.position import least_distance
-from topomap.experiments.experiment import Cell, Experiment, Tallies
+from topomap.experiments.experiment import Cell, Experiment, Tallies, spread
 from topomap.truth import true_map
 
 if TYPE_CHECKING:
@@ -39,6 +39,7 @@ RULES: dict[str, PublishedRule | LikelihoodRule] = {
     "published": PublishedRule(r_star=R_STAR),
     "published, 95 % gate": PublishedRule(alpha=0.95, r_star=R_STAR),
     "likelihood": LikelihoodRule(r_star=R_STAR),
+    "likelihood, exact corners": LikelihoodRule(r_star=R_STAR, slip=0.0),
 }
 WORLDS: dict[str, tuple[str, dict[str, object]]] = {
     "L": ("l", {}),
@@ -98,7 +99,8 @@ def walks(
 def decide(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
     """Decide walks in worlds of the cell's class by the cell's rule."""
     import worlds
-    from evidence.trials import likelihood_trials, published_trials
+    from evidence.likelihood_trials import likelihood_trials
+    from evidence.published_trials import published_trials
 
     sigma, rule = float(cell["sigma"]), RULES[str(cell["rule"])]
     kind, options = WORLDS[str(cell["world"])]
@@ -114,7 +116,9 @@ def decide(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
         total["correct"] += int((periods == size).sum())
         total["undecided"] += int((periods == 0).sum())
         total["wrong"] += int(((periods != 0) & (periods != size)).sum())
-        total["extra_laps"] += float((counts / size - 1)[periods == size].sum())
+        extra = spread("extra_laps", (counts / size - 1)[periods == size])
+        for name, count in extra.items():
+            total[name] += count
     return dict(total)
 
 
@@ -130,7 +134,7 @@ def _experiment(name: str, question: str, classes: tuple[str, ...]) -> Experimen
         trials=1000,
         batch_size=500,
         shares=("correct", "wrong", "undecided"),
-        means=("extra_laps",),
+        medians=("extra_laps",),
         x="sigma",
         paired=("rule",),
     )

@@ -2,19 +2,36 @@
 
 from __future__ import annotations
 
+import math
 import zlib
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-__all__ = ["Batch", "Cell", "Experiment", "Tallies", "Task", "run_task", "tasks_of"]
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = [
+    "Batch",
+    "Cell",
+    "Experiment",
+    "Tallies",
+    "Task",
+    "median_of",
+    "run_task",
+    "spread",
+    "tasks_of",
+]
 
 Cell: TypeAlias = "Mapping[str, str | int | float]"
 """The conditions of a row of the table, by name."""
 Tallies: TypeAlias = "dict[str, float]"
 """Sums over trials, by measure."""
+Fill: TypeAlias = "Callable[[Figure, Experiment, Mapping[int, Tallies]], None]"
+"""Fills an empty figure from the tallies of each cell."""
 Batch: TypeAlias = "Callable[[Cell, np.random.Generator, int], Tallies]"
 """Makes so many trials in a cell and adds up what came of them."""
 
@@ -36,11 +53,17 @@ class Experiment:
     shares: tuple[str, ...]
     """Tallies that are shares of the trials, shown with Wilson intervals."""
     means: tuple[str, ...] = ()
-    """Tallies shown as means over the trials."""
+    """Tallies shown as means over the trials, or over those that `over` counts."""
+    over: str = "trials"
+    """The tally of the trials that came to what `means` measures."""
     x: str = ""
     """The condition along the plot's axis; the others tell its lines apart."""
     paired: tuple[str, ...] = ()
     """Conditions that do not enter the seed: their cells see the same draws."""
+    medians: tuple[str, ...] = ()
+    """Tallies from `spread`, shown as medians."""
+    fill: Fill | None = None
+    """Draws the plot, if not a line for each cell over `x`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,3 +99,36 @@ def run_task(experiment: Experiment, task: Task) -> Tallies:
     key = [task.seed, zlib.crc32(experiment.name.encode()), zlib.crc32(conditions)]
     rng = np.random.default_rng([*key, task.batch])
     return {**experiment.batch(cell, rng, task.trials), "trials": task.trials}
+
+
+def spread(measure: str, values: Iterable[float]) -> Tallies:
+    """Return how often each value was measured, to a hundredth.
+
+    Tallies of batches add up, and `median_of` finds the median of them all.
+
+    Examples
+    --------
+    >>> spread("laps", [0.5, 0.251, 0.5])
+    {'laps@0.50': 2.0, 'laps@0.25': 1.0}
+    """
+    counts = Counter(f"{measure}@{value:.2f}" for value in values)
+    return {name: float(count) for name, count in counts.items()}
+
+
+def median_of(measure: str, tallies: Tallies) -> float:
+    """Return the median of what `spread` counted; nan of nothing.
+
+    Examples
+    --------
+    >>> median_of("laps", {"laps@0.50": 2.0, "laps@0.25": 1.0, "other": 7.0})
+    0.5
+    """
+    found = sorted(
+        (float(name.partition("@")[2]), count)
+        for name, count in tallies.items()
+        if name.startswith(f"{measure}@")
+    )
+    if not found:
+        return math.nan
+    values, counts = zip(*found, strict=True)
+    return float(values[np.searchsorted(np.cumsum(counts), sum(counts) / 2)])

@@ -2,132 +2,19 @@
 
 from __future__ import annotations
 
-import math
-from collections import defaultdict
-from dataclasses import replace
-from functools import partial
-from typing import TYPE_CHECKING
-
-import numpy as np
-
-from topomap.experiments.experiment import Batch, Cell, Experiment, Tallies
-from topomap.exploration import (
-    Settings,
-    Steps,
-    central_starts,
-    distances,
-    explore_grid,
-    weighted,
+from topomap.experiments.experiment import Batch, Cell, Experiment
+from topomap.experiments.exploring_batches import (
+    BY_WAVES,
+    INFORMED,
+    NAMES,
+    WEIGHTS,
+    compare_hindsight,
+    explore_trees,
+    explore_worlds,
+    search_weights,
 )
-from topomap.exploration.asynchronous import Periods, explore_asynchronously
-from topomap.exploration.grid_worlds import grid_world, maze, stable
-from topomap.exploration.studies import tree_bound
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
-__all__ = ["EXPERIMENTS", "explore_trees", "explore_worlds", "search_weights"]
-
-NAMES = ("mindist", "greedy", "utility", "hungarian", "minpos", "mpg", "routes")
-"""The allocators compared; all explore each world from the same starts."""
-BY_WAVES = ("mindist", "greedy", "minpos", "mpg")
-"""Those of figures 5.9 and 5.12, compared where robots decide one by one."""
-WEIGHTS = {
-    f"size {size:g}, turn {turn:g}": (1.0, size, turn)
-    for size in (0.0, 0.25, 1.0)
-    for turn in (0.0, 0.25, 1.0)
-}
-"""The weights of `weighted` that are tried, beside 1 for the distance."""
-
-
-def explore_worlds(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
-    """Let each allocator explore the same random worlds; sum the times in steps.
-
-    Of a cell, ``world`` and ``robots`` count, and if given ``group``, the most
-    cells of a frontier, and ``observe`` and ``decide``, the periods of robots
-    that act in their own time, 0 for only where they arrive.
-    """
-    total: dict[str, float] = defaultdict(float)
-    for _ in range(trials):
-        free, starts = _world(str(cell["world"]), int(cell["robots"]), rng)
-        names = BY_WAVES if "decide" in cell else NAMES
-        _add(total, {name: _time(cell, name, free, starts) for name in names})
-    return dict(total)
-
-
-def explore_trees(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
-    """Let each allocator explore mazes without loops; sum the times and a bound.
-
-    Robots see one cell around them in corridors one cell wide. All passages
-    between places have to be entered, at most one a step and robot, and nobody
-    has to come back: no team is faster than half of `tree_bound` of them.
-    """
-    total: dict[str, float] = defaultdict(float)
-    for _ in range(trials):
-        free = maze(rng, 41, corridor=1, loops=0.0)
-        robots = int(cell["robots"])
-        starts = central_starts(free, robots, rng)
-        far = distances(free, starts, steps=Steps(1, 1))
-        passages = int(free.sum() - free[1::2, 1::2].sum()) - robots
-        depth = float(far[np.isfinite(far)].max()) - 1
-        _add(total, {name: _time(cell, name, free, starts) for name in NAMES})
-        total["bound"] += tree_bound(passages, depth, robots) / 2
-    return dict(total)
-
-
-def search_weights(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
-    """Let `weighted` explore the same random worlds with each of its `WEIGHTS`."""
-    total: dict[str, float] = defaultdict(float)
-    for _ in range(trials):
-        free, starts = _world(str(cell["world"]), int(cell["robots"]), rng)
-        times = {
-            name: explore_grid(
-                free,
-                starts,
-                Settings(partial(weighted, weights=weights), reach=8, limit=5000),
-            ).time
-            for name, weights in WEIGHTS.items()
-        }
-        _add(total, times)
-        alone = times["size 0, turn 0"]
-        total["some weights beat distance"] += min(times.values()) < alone
-    return dict(total)
-
-
-def _add(total: dict[str, float], times: Mapping[str, float]) -> None:
-    """Add the times of one world, and who was faster in it."""
-    for name, time in times.items():
-        total[name] += time
-    if "minpos" in times:
-        total["minpos beats mindist"] += times["minpos"] < times["mindist"]
-        total["minpos beats greedy"] += times["minpos"] < times["greedy"]
-
-
-def _world(
-    kind: str, robots: int, rng: np.random.Generator
-) -> tuple[NDArray[np.bool_], NDArray[np.int64]]:
-    """Return a grid and where robots start on it."""
-    if kind == "stable":
-        free, starts = stable(2 * robots)
-        return free, starts + [0, 1] * rng.integers(-1, 2, size=(robots, 1))
-    free = grid_world(kind, rng)
-    return free, central_starts(free, robots, rng)
-
-
-def _time(
-    cell: Cell, name: str, free: NDArray[np.bool_], starts: NDArray[np.int64]
-) -> float:
-    """Return how long a team explores, in steps."""
-    reach = {"stable": 20.0, "tree": 1.0}.get(str(cell["world"]), 8.0)
-    settings = Settings(allocator=name, reach=reach, limit=5000)
-    if "group" in cell:
-        settings = replace(settings, group_size=int(cell["group"]))
-    if "decide" not in cell:
-        return float(explore_grid(free, starts, settings).time)
-    observe, decide = (float(cell[key]) or math.inf for key in ("observe", "decide"))
-    return explore_asynchronously(free, starts, settings, Periods(observe, decide)).time
+__all__ = ["EXPERIMENTS"]
 
 
 def _experiment(
@@ -152,26 +39,32 @@ def _teams(world: str, *robots: int) -> tuple[Cell, ...]:
 EXPERIMENTS = (
     _experiment(
         "mazes",
-        "How long do 1 to 30 robots explore a maze, by allocator?",
-        _teams("maze", 2, 3, 5, 10, 1, 20, 30),
+        "How long do 1 to 10 robots explore a maze, by allocator?",
+        _teams("maze", 2, 3, 5, 10, 1),
         "robots",
     ),
     _experiment(
         "offices",
         "How long do robots explore an office floor, by allocator?",
-        _teams("office", 2, 3, 5, 10, 1, 20, 30),
+        _teams("office", 2, 3, 5, 10, 1),
         "robots",
     ),
     _experiment(
         "hospitals",
         "How long do robots explore a wing of a hospital, by allocator?",
-        _teams("hospital", 2, 5, 10, 1, 20, 30),
+        _teams("hospital", 2, 5, 10),
         "robots",
     ),
     _experiment(
         "streets",
         "How long do robots explore streets between uneven blocks, by allocator?",
-        _teams("irregular", 2, 5, 10, 1, 20, 30),
+        _teams("streets", 2, 5, 10),
+        "robots",
+    ),
+    _experiment(
+        "crowds",
+        "Do allocators differ when there are 20 or 30 robots?",
+        (*_teams("maze", 20, 30), *_teams("office", 20, 30)),
         "robots",
     ),
     _experiment(
@@ -183,10 +76,19 @@ EXPERIMENTS = (
     _experiment(
         "trees",
         "How near does a team come to the bound of a tree?",
-        _teams("tree", 1, 2, 3, 5, 10, 20),
+        _teams("tree", 1, 2, 5, 10),
         "robots",
         explore_trees,
         ("bound", *NAMES),
+    ),
+    _experiment(
+        "hindsight",
+        "How much faster could a team be that knows the map?",
+        (*_teams("maze", 2, 3, 5, 10), *_teams("office", 2, 3, 5, 10)),
+        "robots",
+        compare_hindsight,
+        INFORMED,
+        ("routes beats minpos",),
     ),
     _experiment(
         "weights",
@@ -202,9 +104,10 @@ EXPERIMENTS = (
         "What does the size of frontiers do to each allocator?",
         tuple(
             {"world": "office", "robots": 5, "group": size}
-            for size in (1, 3, 8, 16, 25, 50)
+            for size in (1, 4, 12, 25, 50)
         ),
         "group",
+        means=BY_WAVES,
     ),
     _experiment(
         "observing",
@@ -221,7 +124,7 @@ EXPERIMENTS = (
         "What does it cost to look and decide more seldom?",
         tuple(
             {"world": "campus", "robots": 15, "observe": period, "decide": period}
-            for period in (1, 2, 4, 8, 16, 0)
+            for period in (1, 2, 4, 8, 0)
         ),
         "decide",
         means=BY_WAVES,

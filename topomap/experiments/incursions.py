@@ -11,14 +11,14 @@ import numpy as np
 from topomap.errors import JobError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.mapping import build_map
-from topomap.routes.driving import match_world
 from topomap.routes.limits import shortest_ways, true_lengths
+from topomap.routes.matching import match_world
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from topomap.mapping import Build
-    from topomap.routes.driving import Matched
+    from topomap.routes.matching import Matched
     from worlds.world import World
 
 __all__ = ["EXPERIMENTS", "improve_once"]

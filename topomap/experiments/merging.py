@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from merge.makers import cut, overlapping, perturb, turn
+from merge.makers import breadth_first, cut, overlapping, perturb, turn
 from merge.mazes import make_maze
 from merge.pairwise import match
 from topomap.experiments.experiment import Cell, Experiment, Tallies
@@ -23,8 +23,10 @@ __all__ = ["EXPERIMENTS", "judge", "merge_mazes"]
 
 SPACING = {"maze": (2.0, 8.0), "regular": (3.0, 3.0)}
 """Distances between the grid lines of a maze, in metres: all alike in a regular one."""
-BINS = (0.001, 0.01, 0.1, 0.5, 0.9)
+BINS = (0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9)
 """Where the stated probabilities are parted for the reliability."""
+OVERLAPS: tuple[str | float, ...] = ("any", 0.05)
+"""For the reliability: as the statement assumes, and more at the rim than that."""
 RIGHT = 0.9
 """Share of the matched vertices that must be one place, for a merge to be right.
 
@@ -33,18 +35,28 @@ A wrong overlay of mazes has hardly any; a few wrong pairs at the rim do not mov
 
 
 def merge_mazes(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
-    """Merge pairs of partial maps of a maze, or of two different ones."""
+    """Merge pairs of partial maps of a maze, or of two different ones.
+
+    An overlap of -1 says two mazes; "any" says two in half of the pairs, and one in the
+    others, of which the robots saw parts that meet, wherever they started.
+    """
     total: Counter[str] = Counter()
     size, sigma = int(cell["vertices"]), float(cell["sigma"])
     side = math.ceil(math.sqrt(8 * size))
     for _ in range(trials):
         spacing = SPACING[str(cell["world"])]
         maze = other = make_maze(side, side, rng, spacing=spacing)
-        overlap = float(cell["overlap"])
-        one, two = overlapping(maze, size, max(overlap, 0.0), rng)
-        if overlap < 0:
-            other = make_maze(side, side, rng, spacing=spacing)
-            two, _ = overlapping(other, size, 0.0, rng)
+        overlap = cell["overlap"]
+        if overlap == "any":
+            one, two = _met(maze, size, rng)
+            if rng.random() < 0.5:
+                other = make_maze(side, side, rng, spacing=spacing)
+        else:
+            one, two = overlapping(maze, size, max(float(overlap), 0.0), rng)
+            if float(overlap) < 0:
+                other = make_maze(side, side, rng, spacing=spacing)
+        if other is not maze:
+            two = breadth_first(other, int(rng.integers(len(other))), size)
         a = perturb(cut(maze, one), sigma, rng)
         b, order = turn(
             perturb(cut(other, two), sigma, rng), rng.uniform(0, math.tau), rng
@@ -52,6 +64,17 @@ def merge_mazes(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
         truth = None if other is not maze else (one, two[order])
         total.update(judge(a, b, truth, "reliability" in cell))
     return dict(total)
+
+
+def _met(
+    maze: Graph, size: int, rng: np.random.Generator
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Draw the starts of two robots anew until their parts have a vertex in common."""
+    one = breadth_first(maze, int(rng.integers(len(maze))), size)
+    while True:
+        two = breadth_first(maze, int(rng.integers(len(maze))), size)
+        if np.isin(one, two).any():
+            return one, two
 
 
 def judge(
@@ -128,10 +151,11 @@ EXPERIMENTS = (
                 "sigma": 0.1,
                 "overlap": overlap,
             }
-            for world, overlap in product(SPACING, (0.0, 0.05, 0.1, 0.15))
+            for overlap in OVERLAPS
+            for world in SPACING
         ),
         merge_mazes,
-        trials=1000,
+        trials=5000,
         batch_size=25,
         shares=("correct", "refused", "false"),
         x="overlap",

@@ -6,6 +6,7 @@ rooms, joined by doors. The plans are those of `topomap.experiments.floor_plans`
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from functools import cache
 from itertools import product
@@ -15,7 +16,7 @@ import numpy as np
 
 from merge.hypotheses import grow_hypotheses
 from merge.layout import lay_out
-from merge.makers import cut, overlapping, perturb, turn
+from merge.makers import cut, overlapping, perturb, swing, turn
 from merge.options import Options
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.experiments.floor_plans import plan_folder
@@ -31,6 +32,8 @@ __all__ = ["EXPERIMENTS", "merge_plans"]
 
 LEAST = {"boundary": 100, "rooms": 40}
 """Plans with fewer vertices are left out."""
+DOORS = math.radians(2)
+"""Error of the direction from a room to the next, in radians."""
 SAME = 0.8
 """Share of what two maps have in common that must lie elsewhere in the building too,
 for the pair to count as ambiguous."""
@@ -47,9 +50,9 @@ def merge_plans(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
         one, two = overlapping(whole, len(whole) // 2, max(overlap, 0.0), rng)
         if overlap < 0:
             two, _ = overlapping(other, len(other) // 2, 0.0, rng)
-        a = perturb(cut(whole, one), sigma, rng)
+        a = _measured(cut(whole, one), cell, rng)
         b, order = turn(
-            perturb(cut(other, two), sigma, rng), rng.uniform(0, 2 * np.pi), rng
+            _measured(cut(other, two), cell, rng), rng.uniform(0, 2 * np.pi), rng
         )
         truth = (one, two[order]) if overlap >= 0 else None
         told = judge(a, b, truth, False)
@@ -59,6 +62,12 @@ def merge_plans(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
             told["refused, ambiguous"] = told["refused"] * twice
         total.update(told)
     return dict(total)
+
+
+def _measured(graph: Graph, cell: Cell, rng: np.random.Generator) -> Graph:
+    """Return what a robot measures: walls are straight, doors lie anywhere."""
+    measured = perturb(graph, float(cell["sigma"]), rng)
+    return swing(measured, DOORS, rng) if cell["of"] == "rooms" else measured
 
 
 def _is_ambiguous(

@@ -21,6 +21,7 @@ from topomap.exploration.studies import bootstrap
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
 
+    from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
     from topomap.experiments.experiment import Experiment
@@ -28,7 +29,11 @@ if TYPE_CHECKING:
     Times = NDArray[np.float64]
     """Shape (worlds, names): how long each name took in each world."""
 
-__all__ = ["average_ratio", "ratio_table", "read_times"]
+__all__ = ["average_ratio", "ratio_plot", "ratio_table", "read_times"]
+
+
+KNOWING = ("bound", "least", "planned")
+"""Means that are no allocator's."""
 
 
 def read_times(experiment: Experiment, path: Path, seed: int) -> dict[int, Times]:
@@ -72,12 +77,41 @@ def ratio_table(experiment: Experiment, times: Mapping[int, Times], rival: str) 
         low, high = _interval(table[:, [by]], lambda part: part[..., 0])
         row += [str(len(table)), f"{table[:, by].mean():.1f} [{low:.1f}, {high:.1f}]"]
         for name in others:
-            pair = table[:, [experiment.means.index(name), by]]
-            ratio = pair[:, 0].mean() / pair[:, 1].mean()
-            low, high = _interval(pair, lambda part: part[..., 0] / part[..., 1])
+            ratio, low, high = _ratio(table, experiment.means.index(name), by)
             row.append(f"{ratio:.3f} [{low:.3f}, {high:.3f}]")
         lines.append(_line(row))
     return "\n".join(lines)
+
+
+def ratio_plot(
+    experiment: Experiment, times: Mapping[int, Times], rival: str, path: Path
+) -> None:
+    """Draw the ratios of `ratio_table` over the experiment's axis, a panel a world."""
+    from topomap.drawing import save_figure
+
+    by, x = experiment.means.index(rival), experiment.x
+    panels: dict[str, list[int]] = defaultdict(list)
+    for cell in sorted(times, key=lambda cell: float(experiment.cells[cell][x])):
+        panels[str(experiment.cells[cell].get("world", ""))].append(cell)
+
+    def fill(figure: Figure) -> None:
+        figure.set_size_inches(6.0 * len(panels), 4.0)
+        axes = figure.subplots(1, len(panels), squeeze=False, sharey=True)[0]
+        for ax, (world, cells) in zip(axes, panels.items(), strict=True):
+            at = [str(experiment.cells[cell][x]) for cell in cells]
+            for k, name in enumerate(experiment.means):
+                if k == by:
+                    continue
+                points = np.array([_ratio(times[cell], k, by) for cell in cells]).T
+                bars = [points[0] - points[1], points[2] - points[0]]
+                ax.errorbar(at, points[0], bars, marker="o", capsize=3, label=name)
+            ax.axhline(1.0, color="black", linewidth=0.8)
+            ax.set_xlabel(f"{x}, {world}")
+            ax.grid(alpha=0.3)
+        axes[0].set_ylabel(f"time by that of {rival}")
+        axes[0].legend(fontsize=7)
+
+    save_figure(path, fill)
 
 
 def average_ratio(
@@ -105,6 +139,13 @@ def average_ratio(
     return float(np.mean(ratios)), float(low), float(high)
 
 
+def _ratio(table: Times, column: int, by: int) -> tuple[float, float, float]:
+    """Return the ratio of two columns' means, and its interval."""
+    pair = table[:, [column, by]]
+    low, high = _interval(pair, lambda part: part[..., 0] / part[..., 1])
+    return float(pair[:, 0].mean() / pair[:, 1].mean()), low, high
+
+
 def _interval(table: Times, of_means: Callable[[Times], Times]) -> tuple[float, float]:
     """Return the interval of a function of the columns' means."""
     return bootstrap(
@@ -122,17 +163,22 @@ def main(
     path: Annotated[Path, typer.Argument(help="NAME.csv of topomap reproduce.")],
     rival: Annotated[str, typer.Argument(help="Whose time is 1.")],
     seed: Annotated[int, typer.Option(help="Seed of the runs.")] = 0,
+    picture: Annotated[
+        Path | None, typer.Option("--plot", help="Draw the ratios: .svg, .png, .pdf.")
+    ] = None,
 ) -> None:
     """Print how an experiment's allocators compare, and `routes` with the rest."""
     experiment = find(path.stem)
     times = read_times(experiment, path, seed)
     typer.echo(ratio_table(experiment, times, rival))
+    if picture is not None:
+        ratio_plot(experiment, times, rival, picture)
     if "routes" in experiment.means:
         column = experiment.means.index("routes")
         published = [
             k
             for k in range(len(experiment.means))
-            if k != column and experiment.means[k] != "bound"
+            if k != column and experiment.means[k] not in KNOWING
         ]
         some = [
             times[cell]

@@ -8,6 +8,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, TypeAlias
 
 from topomap.drawing import save_figure
+from topomap.experiments.experiment import median_of
 from topomap.experiments.wilson import wilson_interval
 from topomap.files.atomic import write_atomically
 
@@ -88,15 +89,20 @@ def table(experiment: Experiment, cells: Mapping[int, Tallies]) -> str:
     """
     conditions = list(experiment.cells[0])
     named = {*experiment.shares, *experiment.means, "trials"}
-    others = sorted({name for tallies in cells.values() for name in tallies} - named)
-    head = [*conditions, "trials", *experiment.shares, *experiment.means, *others]
+    measured = {name for tallies in cells.values() for name in tallies}
+    others = sorted(name for name in measured - named if "@" not in name)
+    medians = [f"{name}, median" for name in experiment.medians]
+    head = ["trials", *experiment.shares, *experiment.means, *medians, *others]
+    head = [*conditions, *head]
     lines = [_line(head), _line("---" for _ in head)]
     for cell, tallies in cells.items():
         trials = tallies["trials"]
         row = [str(experiment.cells[cell][name]) for name in conditions]
         row.append(f"{trials:.0f}")
         row += [_share(tallies.get(name, 0.0), trials) for name in experiment.shares]
-        row += [f"{tallies.get(name, 0.0) / trials:.4g}" for name in experiment.means]
+        over = tallies.get(experiment.over, 0.0)
+        row += [_mean(tallies.get(name, 0.0), over) for name in experiment.means]
+        row += [f"{median_of(name, tallies):.2f}" for name in experiment.medians]
         row += [f"{tallies.get(name, 0.0):.0f}" for name in others]
         lines.append(_line(row))
     return "\n".join(lines)
@@ -106,13 +112,24 @@ def _line(cells: Iterable[str]) -> str:
     return "| " + " | ".join(cells) + " |"
 
 
+def _mean(total: float, over: float) -> str:
+    return f"{total / over:.4g}" if over else "-"
+
+
 def _share(hits: float, trials: float) -> str:
     low, high = wilson_interval(hits, trials)
     return f"{100 * hits / trials:.2f} % [{100 * low:.2f}, {100 * high:.2f}]"
 
 
 def plot(experiment: Experiment, cells: Mapping[int, Tallies], path: Path) -> None:
-    """Draw the first share over the experiment's axis, a line for each other cell."""
+    """Draw the first share over the experiment's axis, a line for each other cell.
+
+    An experiment may have a plot of its own instead: `Experiment.fill`.
+    """
+    own = experiment.fill
+    if own is not None:
+        save_figure(path, lambda figure: own(figure, experiment, cells))
+        return
     share = experiment.shares[0]
     x = experiment.x or next(iter(experiment.cells[0]))
     lines: dict[str, list[Point]] = defaultdict(list)

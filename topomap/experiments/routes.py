@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from topomap.errors import JobError
 from topomap.experiments.experiment import Cell, Experiment, Tallies
 from topomap.mapping import build_map
-from topomap.routes.driving import drive_route, match_world
+from topomap.routes.driving import drive_route
+from topomap.routes.matching import match_world
 from topomap.routes.planning import NoWayError
 
 if TYPE_CHECKING:

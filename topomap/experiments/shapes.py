@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
+import worlds
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -316,6 +318,12 @@ def large(rng: np.random.Generator) -> Shape:
     return grown(rng, 2 * int(rng.integers(20, 51)))
 
 
+def vast(rng: np.random.Generator) -> Shape:
+    """Return a random shape of 102 to 200 corners; `grown` would take too long."""
+    corners = 2 * int(rng.integers(51, 101))
+    return boundary(worlds.make("random", rng, corners=corners).outer)
+
+
 def grid(rng: np.random.Generator) -> Shape:
     """Return a random shape whose walls are whole metres: many are equal by chance."""
     return grown(rng, 2 * int(rng.integers(10, 21)), equal=True)
@@ -327,6 +335,7 @@ CLASSES: dict[str, Callable[[np.random.Generator], Shape]] = {
         small,
         medium,
         large,
+        vast,
         grid,
         spiral,
         comb,

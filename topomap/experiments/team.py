@@ -20,8 +20,14 @@ if TYPE_CHECKING:
     from topomap.team.result import TeamRun
     from worlds.world import World
 
-__all__ = ["EXPERIMENTS", "explore_buildings"]
+__all__ = ["EXPERIMENTS", "LIMIT", "MEANS", "SHARES", "explore_buildings", "tally"]
 
+MIXED = ("rooms", "office", "hospital")
+"""The kinds of building among which ``mixed`` draws."""
+SIZES = (50, 200)
+"""Fewest and most vertices of a mixed building."""
+LIMIT = 6000.0
+"""Simulated seconds after which a run is given up, and not complete."""
 GRID_CELL = 0.1
 """Side of a cell of the grid that a map is held against, in metres."""
 
@@ -50,23 +56,29 @@ def explore_buildings(cell: Cell, rng: np.random.Generator, trials: int) -> Tall
             target=str(cell.get("target", "graph")),
             radio=radio,
             faults=_faults(cell, robots, rng),
+            limit=LIMIT,
         )
-        total.update(_tally(run))
+        total.update(tally(run))
     return dict(total)
 
 
 def _building(kind: str, rng: np.random.Generator) -> World:
-    """Draw a building whose truth is known: some halls are too intricate for that."""
+    """Draw a building whose truth is known: some halls are too intricate for that.
+
+    Of kind ``mixed`` it is of any of `MIXED`, and of a size in `SIZES`.
+    """
     import worlds
     from worlds.errors import WorldError
 
     while True:
-        world = worlds.make(kind, rng)
+        drawn = MIXED[int(rng.integers(len(MIXED)))] if kind == "mixed" else kind
+        world = worlds.make(drawn, rng)
         try:
-            true_maps(world, Parameters())
+            vertices = sum(len(one.vertices) for one in true_maps(world, Parameters()))
         except WorldError:
             continue
-        return world
+        if kind != "mixed" or SIZES[0] <= vertices <= SIZES[1]:
+            return world
 
 
 def _faults(cell: Cell, robots: int, rng: np.random.Generator) -> tuple[Fault, ...]:
@@ -76,7 +88,7 @@ def _faults(cell: Cell, robots: int, rng: np.random.Generator) -> tuple[Fault, .
     return (Fault(int(rng.integers(robots)), **time),)
 
 
-def _tally(run: TeamRun) -> Tallies:
+def tally(run: TeamRun) -> Tallies:
     """Return what came of one run, as sums of one trial."""
     working = [robot for robot in run.robots if not robot.lost]
     chart = run.merged[0].map if run.merged else None
@@ -94,6 +106,8 @@ def _tally(run: TeamRun) -> Tallies:
         "longest_way_m": max(robot.travelled for robot in run.robots),
         "messages": run.traffic.messages,
         "kilobytes": run.traffic.bytes / 1000,
+        "begun anew": sum(event.kind == "begins anew" for event in run.events),
+        "contacts": sum(robot.collisions for robot in run.robots),
         "map_kilobytes": max(robot.told for robot in run.robots) / 1000,
         "grid_kilobytes": grid / 1000,
         "vertices": len(chart.vertices) if chart is not None else 0,
@@ -104,6 +118,7 @@ SHARES = ("correct", "complete", "one map", "false merge", "a robot gave up")
 MEANS = (
     *("time_s", "longest_way_m", "messages", "kilobytes"),
     *("map_kilobytes", "grid_kilobytes", "vertices"),
+    *("begun anew", "contacts"),
 )
 BASE: Cell = {"world": "rooms", "robots": 4, "sigma": 0.06}
 
@@ -119,6 +134,7 @@ def _experiment(name: str, question: str, x: str, *cells: Cell) -> Experiment:
         shares=SHARES,
         means=MEANS,
         x=x,
+        paired=("target", x),
     )
 
 
@@ -130,12 +146,21 @@ EXPERIMENTS = (
         *({"robots": robots} for robots in (1, 2, 4, 8)),
     ),
     _experiment(
+        "team-buildings",
+        "Are the merged maps of buildings of 50 to 200 vertices correct?",
+        "world",
+        {"world": "mixed"},
+    ),
+    _experiment(
         "team-allocators",
         "How long does a team explore, by allocator?",
         "allocator",
         *(
             {"allocator": name, "target": "graph"}
-            for name in ("mindist", "greedy", "hungarian", "minmax", "minpos", "mpg")
+            for name in (
+                *("mindist", "greedy", "hungarian", "minmax"),
+                *("minpos", "mpg", "routes"),
+            )
         ),
         {"allocator": "minpos", "target": "grid"},
     ),
@@ -165,7 +190,7 @@ EXPERIMENTS = (
     ),
     _experiment(
         "team-physical",
-        "Do physical robots that pass through each other explore a building?",
+        "Do physical robots in one space explore a building?",
         "robots",
         *({"robots": robots, "body": "physical"} for robots in (1, 2, 4)),
     ),

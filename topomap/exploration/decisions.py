@@ -46,6 +46,7 @@ def decide(
     previous: Ints | None = None,
     headings: NDArray[np.int64] | None = None,
     asking: int = -1,
+    news: int | None = None,
 ) -> Decision:
     """Send robots to frontiers, by parallel waves if the allocator has them.
 
@@ -71,6 +72,8 @@ def decide(
         Rows and columns of each robot's last step; zeros before its first.
     asking : int
         The robot whose decision counts; those of others may be left out. -1: all.
+    news : int, optional
+        How many cells became known since the last decision.
 
     Returns
     -------
@@ -84,7 +87,7 @@ def decide(
             return found
         return _by_waves(open_, width, robots, frontiers, name, scratch, -1)
     return _by_table(
-        seen, open_, width, robots, frontiers, settings, previous, headings
+        seen, open_, width, robots, frontiers, settings, previous, headings, news
     )
 
 
@@ -129,6 +132,7 @@ def _by_table(
     settings: Settings,
     previous: Ints | None,
     headings: NDArray[np.int64] | None,
+    news: int | None,
 ) -> Decision:
     """Decide with the table of costs."""
     from topomap.exploration.exploring_kernel import table, way
@@ -139,7 +143,7 @@ def _by_table(
     chosen = settings.choose(
         costs,
         known_details(
-            seen, open_, width, frontiers, settings, robots, previous, headings
+            seen, open_, width, frontiers, settings, robots, previous, headings, news
         ),
     )
     if settings.exchange:

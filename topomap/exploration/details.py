@@ -42,6 +42,8 @@ class Details:
     b to b + 1 times the reach, rounded down, away from it through the unknown."""
     previous: NDArray[np.int64] | None = None
     """Shape (n,): the frontier a robot was on its way to, or -1."""
+    news: int | None = None
+    """How many cells became known since the decision that `previous` tells of."""
     reach: float | None = None
     """How far a robot sees, in the unit of the costs."""
 
@@ -54,6 +56,7 @@ class Details:
             "turns": (robots, frontiers),
             "beyond": (frontiers, 1),
             "previous": (robots,),
+            "news": (),
             "reach": (),
         }
         for field in fields(self):

@@ -57,6 +57,7 @@ def known_details(
     robots: Ints,
     previous: Ints | None,
     headings: Ints | None,
+    news: int | None,
 ) -> Details:
     """Return what the allocator uses beside the costs; arguments as of `decide`.
 
@@ -96,6 +97,7 @@ def known_details(
         turns=turns,
         beyond=hidden,
         previous=aims,
+        news=news,
         reach=settings.reach,
     )
 

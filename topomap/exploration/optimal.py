@@ -63,6 +63,8 @@ def _places(reachable: NDArray[np.bool_]) -> int:
     """Return how many robots one frontier has to take so that all get one."""
     robots = int(np.count_nonzero(reachable.any(axis=1)))
     places: int = max(1, -(-robots // reachable.shape[1]))
+    if reachable.all():
+        return places
     while True:
         seats = csr_array(np.tile(reachable, places))
         matched = maximum_bipartite_matching(seats, perm_type="column")

@@ -32,6 +32,7 @@ def routes(
     pace: float = 0.2,
     keep: float = 0.05,
     part: float = 2.4,
+    fade: float = 1.0,
 ) -> NDArray[np.int64]:
     r"""Send each robot to the first frontier of its route over all of them.
 
@@ -47,7 +48,9 @@ def routes(
     costs : ndarray, shape (n, m)
         From robot i to frontier j, in cells; `inf` where there is no way.
     details : Details
-        `between`, `beyond`, `reach` and `previous` are used. Without `between`,
+        `between`, `beyond`, `reach`, `previous` and `news` are used. If there are
+        no news, all keep to the frontiers they were on their way to, so that
+        nobody swings between plans that are equally good. Without `between`,
         frontiers are as far apart as the costs show at least; without `beyond`,
         nothing counts as behind them.
     pace : float
@@ -58,6 +61,11 @@ def routes(
         another plan was better by a hair would swing between them.
     part : float
         Most cells in a part, by the square of the reach.
+    fade : float
+        What an unknown cell counts by one that is a reach less deep, at most 1.
+        Less than 1 is for worlds that are mostly solid: with 1, robots before a
+        row of stalls take the rock behind them for work and are a fifth slower
+        than with 0.7; but in mazes 1 is better by some hundredths.
 
     Returns
     -------
@@ -68,7 +76,8 @@ def routes(
     Raises
     ------
     InputError
-        If `pace` or `part` is not finite and above 0, or `keep` is negative.
+        If `pace` or `part` is not finite and above 0, `keep` is negative, or
+        `fade` is not above 0 and at most 1.
 
     Notes
     -----
@@ -97,11 +106,19 @@ def routes(
             raise InputError(name, "", value, "a finite number above 0")
     if not (math.isfinite(keep) and keep >= 0):
         raise InputError("keep", "", keep, "a finite number of at least 0")
+    if not 0 < fade <= 1:
+        raise InputError("fade", "", fade, "a number above 0, at most 1")
     reachable = np.isfinite(costs)
     goals = np.flatnonzero(reachable.any(axis=0))
     chosen = np.full(len(costs), -1, dtype=np.int64)
     if not len(goals):
         return chosen
+    if details.previous is not None and details.news == 0:
+        kept = np.asarray(details.previous)
+        able = reachable.any(axis=1)
+        if (reachable[np.arange(len(costs)), kept] & (kept >= 0))[able].all():
+            chosen[able] = kept[able]
+            return chosen
     ways = costs[:, goals]
     ways = np.where(
         np.isfinite(ways), ways, NO_WAY * (ways[np.isfinite(ways)].max() + 1.0)
@@ -110,6 +127,7 @@ def routes(
     behind = np.zeros((len(goals), 1))
     if details.beyond is not None:
         behind = np.asarray(details.beyond, dtype=float)[goals]
+        behind = behind * fade ** np.arange(behind.shape[1])
     of, depth, cells = parts(behind, float(max(1, band)), part * max(1, band) ** 2)
     begin = ways[:, of] + depth
     apart = _apart(ways, details, goals)[np.ix_(of, of)] + depth[:, None] + depth

@@ -51,6 +51,7 @@ class Team:
         self.heard = np.full((n, n), -1, dtype=np.int64)
         self.together = border.ravel().astype(np.uint8)
         self.known = 0
+        self.decided = np.zeros(len(self.seen), dtype=np.int64)
         self.fronts = [np.zeros(0, dtype=np.int64) for _ in self.seen]
         offsets, self.parents = sight_tree(settings.reach)
         self.offsets = offsets[:, 0] * self.width + offsets[:, 1]
@@ -144,6 +145,8 @@ class Team:
         if not len(frontiers):
             return None
         believed = np.flatnonzero(self.heard[k] >= 0)
+        cells = np.count_nonzero(self.seen[k])
+        news, self.decided[k] = int(cells - self.decided[k]), cells
         decision = decide(
             self.seen[k],
             self.open[k],
@@ -155,6 +158,7 @@ class Team:
             None if previous is None else previous[believed],
             self.headings[believed],
             -1 if asking < 0 else int(np.searchsorted(believed, asking)),
+            news,
         )
         if (decision.chosen < 0).all():
             return None

@@ -91,9 +91,7 @@ def improve_found(
         drift,
         body=body,
         vertex=len(walk.legs) % (walk.period or 1),
-        new_closer=lambda: make_closer(
-            closing, drift.sigma, body.parameters, slips=False
-        ),
+        new_closer=lambda: make_closer(closing, drift.sigma, body.parameters, slip=0.0),
     )
 
 

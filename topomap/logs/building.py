@@ -7,7 +7,7 @@ from dataclasses import asdict
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from topomap.bodies import body_drift, body_parameters
+from topomap.bodies import body_drift, body_parameters, body_slip
 from topomap.closers import make_closer
 from topomap.found import MAX_WALLS
 from topomap.logs.recording import recording
@@ -97,12 +97,14 @@ def build_logged(
     (True, 'nav_msgs/msg/Odometry')
     """
     lengths = parameters or body_parameters(body)
-    closer = make_closer(closing, sigma, lengths)
+    slip = body_slip(body)
+    closer = make_closer(closing, sigma, lengths, slip=slip)
     about = {
         "body": body,
         "start": None if start is None else asdict(start),
         "sigma": sigma,
         "closing": closing,
+        "slip": slip,
         "max_walls": max_walls,
         "improve": improve,
     }

@@ -27,6 +27,9 @@ __all__ = ["map_drive"]
 LAST = 0.01
 """Most that a closure may be in doubt when the log is over. A robot that drives can
 find out more at little cost, and closes at a hundredth of that; a log cannot."""
+SLIP = 1e-4
+"""How often a corner is taken to be missed. It lies between two lines of many ranges
+each; a log that ends when the robot is sure has no second lap to tell by."""
 
 
 def map_drive(
@@ -79,7 +82,7 @@ def map_drive(
         raise JobError("nowhere a wall that was driven along from corner to corner")
     walks = []
     for stretch in stretches:
-        closer = make_closer(closing, sigma, lengths, epsilon=LAST)
+        closer = make_closer(closing, sigma, lengths, epsilon=LAST, slip=SLIP)
         told = _backwards(stretch) if is_left else stretch
         walks.append(_walk(told, closer if watch is None else watch(closer)))
     best = max(walks, key=lambda walk: (walk.period is not None, len(walk.legs)))

@@ -11,7 +11,7 @@ import msgspec
 
 from behaviours.parameters import Parameters
 from behaviours.port import Outcome, Primitive
-from topomap.closers import make_closer
+from topomap.closers import SLIP, make_closer
 from topomap.errors import InputError
 from topomap.found import Found, map_by
 from topomap.incursions.errors import Drift
@@ -186,7 +186,7 @@ def replay_map(
         raise InputError("", "closing", None, expected)
     deviation = about.sigma if sigma is None else sigma
     body = RecordedBody(recorded)
-    closer = make_closer(name, deviation, recorded.parameters)
+    closer = make_closer(name, deviation, recorded.parameters, slip=about.slip)
     found = map_by(
         body,
         closer if watch is None else watch(closer),
@@ -214,6 +214,7 @@ class _About:
     sigma: float
     max_walls: int
     closing: str | None = None
+    slip: float = SLIP
     halls: bool = False
     improve: str = "none"
     drift: Drift = field(default_factory=Drift)

@@ -215,18 +215,19 @@ def record_build(
     >>> built.correct, len(run.maps[0].states[-1].map.vertices)
     (True, 6)
     """
-    from topomap.bodies import body_parameters, body_profile
+    from topomap.bodies import body_parameters, body_profile, body_slip
     from topomap.closers import make_closer
     from topomap.mapping import build_map
 
     recorder = BuildRecorder(world, sigma, body_profile(body))
     parameters = options.get("parameters") or body_parameters(body)
+    closer = make_closer(closing, sigma, parameters, slip=body_slip(body))
     built = build_map(
         world,
         rng,
         body=body,
         sigma=sigma,
-        closing=recorder.listen(make_closer(closing, sigma, parameters)),
+        closing=recorder.listen(closer),
         watch=recorder.watch,
         **options,
     )

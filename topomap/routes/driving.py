@@ -11,41 +11,25 @@ from behaviours.parameters import Parameters
 from behaviours.port import Align, Side, run
 from topomap.bodies import body_drift, make_body
 from topomap.closers import make_closer
-from topomap.comparison import Comparison, compare_maps
 from topomap.errors import JobError
-from topomap.parts import base_map, compare_wholes, in_one
 from topomap.routes.hall_journey import drive_through_halls
 from topomap.routes.hall_places import has_halls
 from topomap.routes.journey import Event, Journey
+from topomap.routes.matching import Matched
 from topomap.routes.planning import Route, plan_route
 from topomap.routes.setting_down import set_down, set_down_in_halls
 from topomap.routes.steps import follow_on
-from topomap.truth import true_maps
 
 if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.port import Behaviour, Body
-    from topomap.topological_map import Edge, TopologicalMap
-    from worlds.world import World
+    from topomap.topological_map import Edge
 
-__all__ = ["Drive", "Matched", "drive_route", "match_world"]
+__all__ = ["Drive", "drive_route"]
 
 ARRIVED = 0.5
 """A robot has arrived that stands so near to the vertex, in metres."""
-
-
-@dataclass(frozen=True, eq=False)
-class Matched:
-    """A map laid over the world that it is of."""
-
-    world: World
-    chart: TopologicalMap
-    truth: TopologicalMap
-    """All loops of the world."""
-    comparison: Comparison
-    pairs: dict[int, int]
-    """Vertex ids of the map to those of the truth."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,32 +49,6 @@ class Drive:
     travelled: float
     """True way, in metres."""
     collisions: int
-
-
-def match_world(chart: TopologicalMap, world: World) -> Matched:
-    """Lay a map over the truth of its world.
-
-    Raises
-    ------
-    JobError
-        If no vertex of the map is surely one of the world's.
-    """
-    robot = chart.parameters or Parameters()
-    loops = true_maps(world, robot)
-    truth = in_one(loops)
-    comparison = compare_wholes(chart, truth)
-    if not comparison.correct:
-        # A map of one loop: ids count on from loop to loop.
-        first = 0
-        for loop in loops:
-            found = compare_maps(base_map(chart), loop)
-            if found.correct:
-                number = {v.id: first + k for k, v in enumerate(loop.vertices)}
-                pairs = {i: number[j] for i, j in found.pairs}
-                return Matched(world, chart, truth, found, pairs)
-            first += len(loop.vertices)
-        raise JobError("the map is not that of the world: nothing to drive by")
-    return Matched(world, chart, truth, comparison, dict(comparison.pairs))
 
 
 def drive_route(
@@ -150,7 +108,7 @@ def drive_route(
         source,
         wall.source_exit,
         body_drift(body, sigma),
-        lambda: make_closer(closing, sigma, parameters, slips=False),
+        lambda: make_closer(closing, sigma, parameters, slip=0.0),
     )
     failure, routes = "", [first]
     try:

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from topomap.incursions.layout import Layout
-    from topomap.routes.driving import Matched
+    from topomap.routes.matching import Matched
     from topomap.topological_map import Edge
     from worlds.world import World
 

@@ -12,7 +12,7 @@ from topomap.routes.hall_places import places_of
 from worlds.pose import Pose
 
 if TYPE_CHECKING:
-    from topomap.routes.driving import Matched
+    from topomap.routes.matching import Matched
     from topomap.topological_map import Edge
 
 __all__ = ["set_down", "set_down_in_halls"]

@@ -1,29 +1,26 @@
-"""What one robot of a team does: explore, tell, listen, merge, choose."""
+"""What one robot of a team knows, hears, tells and decides."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from topomap.exploring import Exploration, first_vertex, go, venture
+from topomap.explored import Exploration
+from topomap.team.changes import Changes, caught_up
 from topomap.team.choosing import Choice, Costs, Mate, choose
 from topomap.team.frontiers import way_lengths
-from topomap.team.messages import Beacon, MapReport, decode, encode
+from topomap.team.messages import Beacon, MapChange, MapReport, decode, encode
 from topomap.team.sharing import Knowledge, learn, report_of
-from topomap.team.tasks import Event, Task, Wait
+from topomap.team.tasks import Event
 
-if TYPE_CHECKING:
-    from behaviours.port import Behaviour, Outcome
-
-__all__ = ["Agent", "explore_with_others"]
+__all__ = ["BEAT", "MOST", "Agent"]
 
 BEAT = 5.0
 """Seconds between two beacons of a robot."""
 PATIENCE = 120.0
 """Seconds after which a robot that is not heard any more is not counted on."""
-LONGEST_WAIT = 60.0
-"""Seconds after which a robot goes where another should have gone."""
+MOST = 64
+"""Robots of a team; a map begun anew has its robot's number and so many more."""
 GROWTH = 3
 """Vertices that two strangers' maps must grow by until they are compared again."""
 
@@ -36,6 +33,8 @@ class Agent:
     known: Knowledge
     send: Callable[[bytes], None]
     receive: Callable[[], list[bytes]]
+    beset: Callable[[], float | None] = lambda: None
+    """Bearing of a robot that waits for this one to go away, in radians."""
     allocator: str = "minpos"
     costs: Costs = way_lengths
     returns: bool = False
@@ -56,6 +55,7 @@ class Agent:
     _next_beacon: float = 0.0
     _next_map: float = 0.0
     _peers: dict[int, tuple[Beacon, float]] = field(default_factory=dict)
+    _changes: Changes = field(default_factory=Changes)
     _reports: dict[int, MapReport] = field(default_factory=dict)
     _learned: dict[int, int] = field(default_factory=dict)
     _refused: dict[int, int] = field(default_factory=dict)
@@ -64,16 +64,14 @@ class Agent:
     @property
     def robot(self) -> int:
         """Its number."""
-        return self.known.robot
+        return self.known.robot % MOST
 
     def hear(self) -> None:
         """Take in what has arrived; the newest of each kind and robot counts."""
         for data in self.receive():
             message = decode(data)
-            if isinstance(message, MapReport):
-                last = self._reports.get(message.sender)
-                if last is None or message.version > last.version:
-                    self._reports[message.sender] = message
+            if isinstance(message, MapReport | MapChange):
+                self._hear_map(message)
             else:
                 peer = self._peers.get(message.sender)
                 if peer is None or message.count > peer[0].count:
@@ -88,14 +86,22 @@ class Agent:
             self.send(
                 encode(
                     Beacon(
-                        *(self.robot, self._beacons, self._version, self.found.here),
+                        *(
+                            self.known.robot,
+                            self._beacons,
+                            self._version,
+                            self.found.here,
+                        ),
                         *(self._target, self._is_venturing, heard),
                     )
                 )
             )
-        if self._version and self.now >= self._next_map and self._is_missed():
+        base = self._least_heard()
+        if self._version and self.now >= self._next_map and base < self._version:
             self._next_map = self.now + BEAT
-            self.send(self.report)
+            whole = self.report
+            change = encode(self._changes.since(base)) if base else whole
+            self.send(min(change, whole, key=len))
 
     def learn(self) -> None:
         """Merge what others have told; what is refused is tried again when it grew."""
@@ -131,7 +137,8 @@ class Agent:
                 target = self._claim(k, beacon)
                 mates[k] = Mate(place, target, beacon.is_venturing)
         return choose(
-            *(chart, self.robot, self.found.here, mates, self.allocator, self.costs)
+            *(chart, self.known.robot, self.found.here, mates),
+            *(self.allocator, self.costs),
         )
 
     def note(
@@ -150,6 +157,23 @@ class Agent:
             self._next_beacon = self.now
         self._target, self._is_venturing = target, ventures
 
+    def begin_anew(self, reason: str) -> None:
+        """Drop the map, and go on as a robot that has just been set down.
+
+        Under another name: what others have learned of its old map stays theirs.
+        """
+        self.note("begins anew", reason)
+        found, known = self.found, self.known
+        found.clear()
+        known.robot += MOST
+        known.names.clear()
+        known.turns.clear()
+        self._learned.clear()
+        self._refused.clear()
+        self._version, self._state, self.report = 0, (0, 0, 0), b""
+        self._changes = Changes()
+        self.aim(None)
+
     def _claim(self, robot: int, beacon: Beacon) -> tuple[int, int] | None:
         """Return another's target in one's own vertices and directions."""
         if beacon.target is None:
@@ -159,13 +183,25 @@ class Agent:
             return None
         return vertex, (beacon.target[1] + self.known.turns[robot]) % 4
 
-    def _is_missed(self) -> bool:
-        """Return whether some robot heard just now lacks the newest map."""
-        return any(
-            beacon.heard.get(self.robot, 0) < self._version
+    def _hear_map(self, message: MapReport | MapChange) -> None:
+        """Keep the newest map of each robot."""
+        last = self._reports.get(message.sender)
+        if isinstance(message, MapChange):
+            newer = None if last is None else caught_up(last, message)
+        else:
+            is_old = last is not None and message.version <= last.version
+            newer = None if is_old else message
+        if newer is not None:
+            self._reports[message.sender] = newer
+
+    def _least_heard(self) -> int:
+        """Return the oldest version of the map that a robot heard just now has."""
+        heard = (
+            beacon.heard.get(self.known.robot, 0)
             for beacon, heard_at in self._peers.values()
             if self.now - heard_at <= 2 * BEAT
         )
+        return min(heard, default=self._version)
 
     def _renew_report(self) -> None:
         chart = self.known.chart
@@ -174,92 +210,7 @@ class Agent:
         if state != self._state:
             self._state = state
             self._version += 1
-            self.report = encode(report_of(self.known, self._version))
+            report = report_of(self.known, self._version)
+            self._changes.record(report)
+            self.report = encode(report)
             self._next_map = self.now
-
-
-def explore_with_others(agent: Agent) -> Task:
-    """EXPLORE as one of a team, each of which decides for itself.
-
-    As `topomap.exploring.explore_halls`, but at every vertex the robot merges what it
-    has heard, and goes to the exit that it allots to itself. It waits for nobody: a
-    message that does not come changes only what it knows.
-
-    Parameters
-    ----------
-    agent : Agent
-        Its mind.
-
-    Returns
-    -------
-    Task
-        A coroutine without an end: a robot that has nothing left to do stands, tells
-        what it knows, and goes on if it hears of something open.
-    """
-    found, chart = agent.found, agent.found.chart
-    yield from _attentively(agent, first_vertex(found))
-    waited = 0.0
-    while True:
-        agent.hear()
-        agent.learn()
-        choice = agent.choose()
-        if not found.closed or found.walls >= found.max_walls:
-            choice = Choice(None, False, "a loop was never closed")
-        if choice.waits and waited < LONGEST_WAIT:
-            _note_once(agent, "waits", choice)
-            agent.aim(None)
-            agent.tell()
-            waited += BEAT
-            yield Wait(BEAT)
-            continue
-        waited = 0.0
-        if choice.target is None:
-            yield from _rest(agent, choice)
-            continue
-        agent.is_done = False
-        vertex, exit_ = choice.target
-        if vertex == found.here:
-            _note_once(agent, "goes", choice)
-            agent.aim(choice.target, ventures=True)
-            yield from _attentively(agent, venture(found, exit_))
-            agent.aim(None)
-        else:
-            _note_once(agent, "goes", choice)
-            agent.aim(choice.target)
-            step = chart.route(found.here, vertex)[0]
-            yield from _attentively(agent, go(found, step[1]))
-
-
-def _rest(agent: Agent, choice: Choice) -> Task:
-    """Go home if asked to, by one edge; else stand for a beat."""
-    found, chart = agent.found, agent.found.chart
-    agent.aim(None)
-    home = chart.now(0)
-    if agent.returns and found.here != home:
-        yield from _attentively(agent, go(found, chart.route(found.here, home)[0][1]))
-        return
-    if not agent.is_done:
-        agent.is_done, agent.done_at = True, agent.now
-        agent.note("ends", choice.reason)
-    agent.tell()
-    yield Wait(BEAT)
-
-
-def _note_once(agent: Agent, kind: str, choice: Choice) -> None:
-    """Write a choice into the history unless it is the last one still."""
-    last = agent.events[-1] if agent.events else None
-    if last is None or (last.kind, last.target) != (kind, choice.target):
-        agent.note(kind, choice.reason, choice.target)
-
-
-def _attentively(agent: Agent, behaviour: Behaviour[None]) -> Task:
-    """Carry out a behaviour, telling and listening between its primitives."""
-    outcome: Outcome | None = None
-    while True:
-        agent.hear()
-        agent.tell()
-        try:
-            primitive = next(behaviour) if outcome is None else behaviour.send(outcome)
-        except StopIteration:
-            return
-        outcome = yield primitive

@@ -4,31 +4,31 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-from topomap.bodies import body_parameters, make_body
+from topomap.bodies import body_parameters, body_slip
 from topomap.closers import make_closer
 from topomap.errors import InputError
 from topomap.exploration.registry import find_allocator
-from topomap.exploring import Exploration
+from topomap.explored import Exploration
 from topomap.found import MAX_SIGMA, MAX_WALLS
-from topomap.team.agent import Agent
+from topomap.team.agent import MOST, Agent
 from topomap.team.channel import Channel, Radio
 from topomap.team.collecting import merge_all, robot_run
 from topomap.team.faults import Fault
 from topomap.team.grid_adapter import grid_lengths
+from topomap.team.placing import place
 from topomap.team.result import TeamRun
 from topomap.team.scheduling import Member, run_by_clocks, run_in_arena
 from topomap.team.sharing import Knowledge
 from topomap.team.starts import check_starts, choose_starts
 from topomap.truth import true_maps
+from worlds.crew_body import CrewBody
 
 if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.parameters import Parameters
-    from worlds.ideal import IdealBody
-    from worlds.physical import PhysicalBody
     from worlds.pose import Pose
     from worlds.world import World
 
@@ -36,8 +36,6 @@ __all__ = ["TARGETS", "explore"]
 
 TARGETS = ("graph", "grid")
 """Whether distances are those of the map's edges, or of a grid laid under them."""
-MOST = 64
-"""Robots of a team."""
 LIMIT = 1e5
 """Seconds after which a run is given up."""
 
@@ -74,8 +72,8 @@ def explore(
     robots : int
         How many, from 1 to 64.
     body : str
-        As for `topomap.build_map`. Physical robots share one clock and the walls, but
-        pass through each other.
+        As for `topomap.build_map`. Physical robots share one space: they see each
+        other's beacons, and give way.
     sigma : float
         Standard deviation of a measured length, as a part of the length.
     allocator : str
@@ -130,31 +128,18 @@ def explore(
     air = Channel(radio or Radio(), world, robots, air_rng)
     fault_of = {fault.robot: fault for fault in faults}
     team: list[Member] = []
-    arena = None
-    if body != "ideal":
-        from worlds.arena import Arena
-
-        arena = Arena(world, ghosts=True)
-    for k, (start, own) in enumerate(zip(starts, body_rng.spawn(robots), strict=True)):
+    bodies, arena = place(body, world, starts, parameters, sigma, body_rng)
+    for k, placed in enumerate(bodies):
         fault = fault_of.get(k, Fault(k))
-        placed = make_body(
-            *(body, world, start, own),
-            sigma=sigma,
-            parameters=parameters,
-            arena=arena,
-        )
-        found = Exploration(
-            parameters, make_closer(closing, sigma, parameters), sigma, MAX_WALLS
-        )
+        closer = make_closer(closing, sigma, parameters, slip=body_slip(body))
+        found = Exploration(parameters, closer, sigma, MAX_WALLS)
         agent = _agent(k, found, air, team, fault)
         agent.allocator, agent.returns = allocator, returns
         if target == "grid":
             agent.costs = grid_lengths(parameters, sigma)
-        team.append(
-            Member(
-                agent, cast("IdealBody | PhysicalBody", placed), fault.comes, fault.dies
-            )
-        )
+        if isinstance(placed, CrewBody):
+            agent.beset = placed.beset
+        team.append(Member(agent, placed, fault.comes, fault.dies))
     end = (
         run_by_clocks(team, limit)
         if arena is None

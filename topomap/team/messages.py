@@ -8,6 +8,7 @@ __all__ = [
     "Beacon",
     "End",
     "LinkRow",
+    "MapChange",
     "MapReport",
     "Message",
     "Name",
@@ -59,6 +60,23 @@ class MapReport(msgspec.Struct, frozen=True, array_like=True, tag="map"):
     directions of its map to directions of the sender's."""
 
 
+class MapChange(msgspec.Struct, frozen=True, array_like=True, tag="change"):
+    """What a robot has learned since a version of its map that others have."""
+
+    sender: int
+    base: int
+    """Who has this version, or a later one, can catch up."""
+    version: int
+    places: tuple[PlaceRow, ...]
+    """New and changed ones."""
+    gone_places: tuple[int, ...]
+    """Those that were found to be another one."""
+    links: tuple[LinkRow, ...]
+    gone_links: tuple[tuple[End, End], ...]
+    turns: dict[int, int]
+    """As in `MapReport`, all of them."""
+
+
 class Beacon(msgspec.Struct, frozen=True, array_like=True, tag="beacon"):
     """Where a robot is and what it is about to do."""
 
@@ -77,7 +95,7 @@ class Beacon(msgspec.Struct, frozen=True, array_like=True, tag="beacon"):
     """The version of each other robot's map that it has."""
 
 
-Message = MapReport | Beacon
+Message = MapReport | MapChange | Beacon
 
 _ENCODER = msgspec.msgpack.Encoder()
 _DECODER: msgspec.msgpack.Decoder[Message] = msgspec.msgpack.Decoder(Message)

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
-from topomap.exploring import RefutedError
-from topomap.team.agent import Agent, explore_with_others
+from topomap.explored import RefutedError
+from topomap.team.agent import Agent
+from topomap.team.mission import explore_with_others
 from topomap.team.tasks import Task, Wait
-from worlds.physical import PhysicalBody
+from worlds.crew_body import CrewBody
 
 if TYPE_CHECKING:
     from behaviours.port import Outcome
@@ -30,7 +31,7 @@ class Member:
     """A robot of a simulated team: mind, body, and what happens to it."""
 
     agent: Agent
-    body: IdealBody | PhysicalBody
+    body: IdealBody | CrewBody
     comes: float = 0.0
     """When it is set down, in seconds."""
     dies: float = float("inf")
@@ -121,16 +122,28 @@ def run_in_arena(team: Sequence[Member], arena: Arena, limit: float) -> float:
     -------
     float
         When the last robot was done, or the limit.
+
+    Notes
+    -----
+    A robot that breaks down is carried off at once; one that comes late is set down
+    as soon as nobody stands at its start.
     """
     tasks = [explore_with_others(member.agent) for member in team]
-    bodies = [m.body for m in team if isinstance(m.body, PhysicalBody)]
+    bodies = [m.body for m in team if isinstance(m.body, CrewBody)]
     rests = [member.comes for member in team]
     is_busy = [False] * len(team)
+    away = {k for k, member in enumerate(team) if member.comes > 0}
+    for k in away:
+        bodies[k].lift()
     while arena.clock <= limit:
         for k, (member, body) in enumerate(zip(team, bodies, strict=True)):
             if not member.is_out and arena.clock >= member.dies:
                 member.lost = f"broke down after {arena.clock:.0f} s"
-                body.halt()
+                body.lift()
+            if k in away:
+                if arena.clock < member.comes or not body.lower():
+                    continue
+                away.remove(k)
             while not member.is_out and arena.clock >= rests[k]:
                 outcome = body.poll() if is_busy[k] else None
                 if is_busy[k] and outcome is None:
@@ -139,8 +152,8 @@ def run_in_arena(team: Sequence[Member], arena: Arena, limit: float) -> float:
                 is_busy[k] = wait == 0
                 rests[k] = arena.clock + wait
         if arena.ticks % MARKED == 0:
-            for member in team:
-                if not member.is_out:
+            for k, member in enumerate(team):
+                if not (member.is_out or k in away):
                     member.mark(arena.clock)
         if _is_over(team):
             return _end(team)
@@ -150,7 +163,7 @@ def run_in_arena(team: Sequence[Member], arena: Arena, limit: float) -> float:
 
 def _decide(
     member: Member,
-    body: PhysicalBody,
+    body: CrewBody,
     task: Task,
     outcome: Outcome | None,
     now: float,

@@ -29,7 +29,8 @@ class Event:
     """In seconds."""
     robot: int
     kind: str
-    """``goes``, ``waits``, ``merges``, ``refuses`` or ``ends``."""
+    """``goes``, ``waits``, ``makes way``, ``merges``, ``refuses``, ``begins anew`` or
+    ``ends``."""
     reason: str
     target: tuple[int, int] | None = None
     """Vertex and exit, in its own map, for ``goes`` and ``waits``."""

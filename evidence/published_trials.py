@@ -1,9 +1,7 @@
-"""How often each rule closes many walks rightly: compiled loops for experiments.
+"""How often the published rule closes many walks rightly: a compiled loop.
 
-Plain arrays in, plain arrays out: row t is one walk along one boundary. The
-likelihood loop runs the compiled step that the library runs; the published rule is
-written out once more, in numbers instead of mass functions, and tested against
-`evidence.dempster_shafer` walk by walk.
+The rule is written out once more, in numbers instead of mass functions, and tested
+against `evidence.dempster_shafer` walk by walk.
 """
 
 from __future__ import annotations
@@ -15,138 +13,28 @@ import numpy as np
 from numba import njit
 
 from evidence.dempster_shafer import PublishedRule, Readings
-from evidence.likelihood import later_rule
 from evidence.phi import Freedom, Variance
-from evidence.starts import later_starts
-from evidence.tracking import KINDS, Track, new_track, restart, step
+from evidence.rows import check_rows
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from evidence.likelihood import LikelihoodRule
-
     Floats = NDArray[np.float64]
     Integers = NDArray[np.int64]
 
-__all__ = ["likelihood_trials", "published_trials"]
+__all__ = ["published_trials"]
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(32)
-
-
-def likelihood_trials(
-    lengths: Floats,
-    symbols: Integers,
-    turns: Floats,
-    sigma: float,
-    rule: LikelihoodRule,
-) -> tuple[Integers, Integers, Floats, Integers]:
-    """Decide many walks by the likelihood test.
-
-    Parameters
-    ----------
-    lengths : ndarray, shape (T, W)
-        Measured walls of T walks, in metres.
-    symbols : ndarray of int, shape (T, W + 1)
-        Kinds of the corners v_0 to v_W, below 16.
-    turns : ndarray, shape (T, W)
-        Turns at v_1 to v_W, in radians.
-    sigma : float
-        Standard deviation that the rule is told, as a part of the length.
-    rule : LikelihoodRule
-        Its options.
-
-    Returns
-    -------
-    periods : ndarray of int, shape (T,)
-        Accepted number of walls; 0 where undecided at the end.
-    walls : ndarray of int, shape (T,)
-        After how many walls it was accepted.
-    errors : ndarray, shape (T,)
-        Stated error probability then.
-    starts : ndarray of int, shape (T,)
-        The vertex at which the accepted loop begins.
-
-    Raises
-    ------
-    ValueError
-        If a symbol is out of range, or the shapes do not belong together.
-    """
-    _check(lengths, symbols, turns)
-    first = new_track(lengths.shape[1], rule.row(sigma), rule.log_prior())
-    later = new_track(lengths.shape[1], later_rule(rule).row(sigma), rule.log_prior())
-    begins = np.array(later_starts(lengths.shape[1]), dtype=np.int64)
-    count = len(lengths)
-    periods, walls, starts = np.zeros((3, count), dtype=np.int64)
-    errors = np.ones(count)
-    for track, at in ((first, begins[:0]), (later, begins)):
-        _likelihood_loop(
-            track, at, lengths, symbols, turns, periods, walls, errors, starts
-        )
-    return periods, walls, errors, starts
-
-
-@njit(cache=True, error_model="numpy")
-def _likelihood_loop(
-    track: Track,
-    begins: Integers,
-    lengths: Floats,
-    symbols: Integers,
-    turns: Floats,
-    periods: Integers,
-    walls: Integers,
-    errors: Floats,
-    starts: Integers,
-) -> None:
-    """Decide all walks from v_0, or where that comes too late, from later vertices.
-
-    A later start only counts if it is accepted before all earlier ones.
-    """
-    for t in range(lengths.shape[0]):
-        if len(begins) == 0:
-            walls[t] = lengths.shape[1]
-            _walk(track, 0, t, lengths, symbols, turns, periods, walls, errors, starts)
-        for begin in begins:
-            # Two laps of at least four walls, and sooner than what is known.
-            if begin + 8 > walls[t] - (periods[t] > 0):
-                break
-            _walk(
-                track, begin, t, lengths, symbols, turns, periods, walls, errors, starts
-            )
-
-
-@njit(cache=True, error_model="numpy")
-def _walk(
-    track: Track,
-    begin: int,
-    t: int,
-    lengths: Floats,
-    symbols: Integers,
-    turns: Floats,
-    periods: Integers,
-    walls: Integers,
-    errors: Floats,
-    starts: Integers,
-) -> None:
-    """Walk from one vertex until the loop is closed, if before it was otherwise."""
-    restart(track, symbols[t, begin])
-    for i in range(begin, walls[t] - (periods[t] > 0)):
-        k = step(track, lengths[t, i], 0.0, symbols[t, i + 1], turns[t, i])
-        if k > 0:
-            periods[t], walls[t], starts[t] = k, i + 1, begin
-            for c in range(track.state[1]):
-                if track.period[c] == k:
-                    errors[t] = 1.0 - track.weight[c, -1]
-            return
 
 
 def published_trials(
     lengths: Floats, symbols: Integers, turns: Floats, sigma: float, rule: PublishedRule
 ) -> tuple[Integers, Integers]:
-    """Decide many walks by the published rule; see `likelihood_trials`.
+    """Decide many walks by the published rule; see `evidence.likelihood_trials`.
 
     The distinctiveness discount is not offered here.
     """
-    _check(lengths, symbols, turns)
+    check_rows(lengths, symbols, turns)
     if rule.distinctive:
         raise ValueError("distinctive must be False: the loop does not discount")
     count = len(lengths)
@@ -163,20 +51,6 @@ def published_trials(
     )
     _published_loop(lengths, symbols, turns, options, periods, walls)
     return periods, walls
-
-
-def _check(lengths: Floats, symbols: Integers, turns: Floats) -> None:
-    rows, walls = lengths.shape
-    if symbols.shape != (rows, walls + 1) or turns.shape != (rows, walls):
-        raise ValueError(
-            "lengths, symbols, turns must have the shapes (T, W), (T, W + 1), (T, W); "
-            f"got {lengths.shape}, {symbols.shape}, {turns.shape}"
-        )
-    if symbols.size and not (symbols.min() >= 0 and symbols.max() < KINDS):
-        raise ValueError(
-            f"symbols must be in 0 to {KINDS - 1}; "
-            f"got {symbols.min()} to {symbols.max()}"
-        )
 
 
 @njit(cache=True, error_model="numpy")
