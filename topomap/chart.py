@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import networkx as nx
 
 from behaviours.ways import Way
+from topomap.folding import FARTHEST
 from topomap.headings import angle_of
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 
@@ -222,6 +223,7 @@ def behaviour_of(way: Way | None, way_back: Way | None) -> str:
 
 def _edge(link: Link, sigma: float) -> Edge:
     (source, source_exit), (target, target_exit) = link.ends
+    widths = ((link.length, min(link.clearance, FARTHEST)),)
     return Edge(
         source,
         target,
@@ -232,4 +234,5 @@ def _edge(link: Link, sigma: float) -> Edge:
         link.behaviour,
         sum(link.shifts) / len(link.shifts),
         link.clearance if math.isfinite(link.clearance) else None,
+        widths=widths if link.behaviour == "WF" and link.length > 0 else (),
     )

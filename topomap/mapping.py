@@ -145,15 +145,13 @@ def build_map(
         else closing
     )
     halls = not is_open(world, parameters)
-    if halls and improve != "none":
-        expected = "none: incursions are for worlds without halls"
+    if halls and improve == "active":
+        expected = "none or passive: ways are driven in worlds without halls"
         raise InputError("", "improve", improve, expected)
     found = map_by(robot, closer, max_walls, sigma, halls=halls)
-    improvement = None
-    if not halls:
-        name = closing if isinstance(closing, str) else "likelihood"
-        drift = body_drift(body, sigma)
-        improvement = improve_found(found, improve, drift, robot, name)
+    name = closing if isinstance(closing, str) else "likelihood"
+    drift = body_drift(body, sigma)
+    improvement = improve_found(found, improve, drift, robot, name)
     chart = improvement.map if improvement else found.map
     return Build(
         *(chart, found.closed, found.loops, found.recognitions, found.walls),

@@ -4,7 +4,7 @@ import numpy as np
 
 from topomap.experiments.catalogue import catalogue
 from topomap.experiments.incursions import random_worlds
-from topomap.experiments.routes import _tallies, random_pairs
+from topomap.experiments.routes import _tallies, hall_pairs, random_pairs
 from topomap.routes.driving import Drive
 from topomap.routes.planning import Route
 
@@ -12,7 +12,8 @@ NOWHERE = Route(0, 0, (), 0.0, 1.0)
 
 
 def test_they_are_in_the_catalogue():
-    assert {"incursions-ideal", "incursions-physical", "routes"} <= set(catalogue())
+    names = {"incursions-ideal", "incursions-physical", "routes", "routes-halls"}
+    assert names <= set(catalogue())
 
 
 def test_islands_and_ways_are_counted():
@@ -36,6 +37,13 @@ def test_pairs_are_driven():
     found = random_pairs(cell, np.random.default_rng(2), 6)
     assert found["arrived"] == 6
     assert found["silently elsewhere"] == 0
+
+
+def test_pairs_are_driven_through_halls():
+    cell = {"world": "rooms", "body": "ideal", "sigma": 0.02, "improve": "none"}
+    found = hall_pairs(cell, np.random.default_rng(2), 6)
+    assert found["arrived"] == 6
+    assert found["silently elsewhere"] == found["found elsewhere"] == 0
 
 
 def tally(**changes):

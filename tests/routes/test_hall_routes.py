@@ -13,7 +13,7 @@ import worlds
 from behaviours import Parameters, VertexType
 from behaviours.port import run as run_on
 from behaviours.ways import Way
-from topomap import JobError, build_map, save_map
+from topomap import InputError, JobError, build_map, save_map
 from topomap.cli import main
 from topomap.closers import make_closer
 from topomap.exploring import explore_halls
@@ -21,8 +21,9 @@ from topomap.files.world_files import save_world
 from topomap.routes.driving import drive_route
 from topomap.routes.hall_belief import Standing, begun, moved, surest
 from topomap.routes.hall_places import has_halls, places_of
+from topomap.routes.limits import true_lengths
 from topomap.routes.matching import match_world
-from topomap.routes.planning import plan_route
+from topomap.routes.planning import Router, plan_route
 from topomap.routes.steps import walk_wall
 from topomap.truth import true_map, true_maps
 from worlds.ideal import IdealBody
@@ -215,3 +216,58 @@ def test_the_command_drives_through_halls(tmp_path, capsys):
     assert f"arrived at vertex {b}" in capsys.readouterr().out
     assert main([*drive, "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["arrived"] is True
+
+
+@settings(max_examples=3, deadline=None)
+@given(seed=st.integers(0, 2**32 - 1), kind=st.sampled_from(["rooms", "office"]))
+def test_incursions_inside_rooms_lead_where_they_say(seed, kind):
+    rng = np.random.default_rng(seed)
+    world = worlds.make(kind, rng)
+    built = build_map(world, rng, sigma=0.02, improve="passive")
+    assert built.correct
+    matched = match_world(built.map, world)
+    for edge, length in zip(built.map.edges, true_lengths(matched), strict=True):
+        assert edge.kind in ("base", "passive")
+        assert length is not None
+
+
+@pytest.fixture(scope="module")
+def house():
+    """Return the rooms of a house, with incursions in them."""
+    world = worlds.make("rooms", np.random.default_rng([3, 0]))
+    built = build_map(world, np.random.default_rng(3), sigma=0.02, improve="passive")
+    assert any(edge.is_incursion for edge in built.map.edges)
+    return match_world(built.map, world)
+
+
+@pytest.mark.parametrize("body", ["ideal", "physical"])
+def test_a_robot_crosses_rooms_on_its_way_through_halls(house, body):
+    ids = [v.id for v in house.chart.vertices]
+    router = Router(house.chart)
+    routes = [
+        route
+        for route in (router.route(a, b) for a in ids for b in ids)
+        if {"INCURSION", "HF"} <= {step.edge.behaviour for step in route.steps}
+    ]
+    assert routes
+    for route in sorted(routes, key=lambda r: r.length)[:3]:
+        rng = np.random.default_rng(1)
+        drive = drive_route(house, route.source, route.target, rng, body=body)
+        assert (drive.failure, drive.arrived, drive.events) == ("", True, ())
+
+
+def test_an_incursion_that_leads_elsewhere_is_noticed(house):
+    way = next(e for e in house.chart.edges if e.is_incursion)
+    # It says another direction than leads there.
+    wrong = dataclasses.replace(way, source_exit=way.source_exit + math.pi / 3)
+    edges = tuple(wrong if e is way else e for e in house.chart.edges)
+    chart = dataclasses.replace(house.chart, edges=edges)
+    astray = dataclasses.replace(house, chart=chart)
+    rng = np.random.default_rng(1)
+    drive = drive_route(astray, way.source, way.target, rng, sigma=0.02)
+    assert drive.failure or (drive.arrived and drive.events)
+
+
+def test_driven_incursions_are_for_worlds_without_halls():
+    with pytest.raises(InputError, match="improve: expected none or passive: ways are"):
+        build_map(two_rooms(), np.random.default_rng(1), improve="active")

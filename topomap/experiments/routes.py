@@ -13,11 +13,14 @@ from topomap.routes.matching import match_world
 from topomap.routes.planning import NoWayError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
 
     from topomap.routes.driving import Drive
+    from worlds.world import World
 
-__all__ = ["EXPERIMENTS", "random_pairs"]
+__all__ = ["EXPERIMENTS", "hall_pairs", "random_pairs"]
 
 PAIRS = 100
 """Pairs driven on each map."""
@@ -29,19 +32,40 @@ def random_pairs(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
     """Drive between random pairs of vertices of maps that the same body made."""
     import worlds
 
+    def make() -> World:
+        size = {name: int(cell[name]) for name in ("corners", "islands")}
+        return worlds.make("random", rng, **size)
+
+    return _drives(cell, rng, trials, make, str(cell["body"]))
+
+
+def hall_pairs(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
+    """Drive between random pairs of vertices of maps of rooms and halls.
+
+    The ideal body made the maps: whether the physical one can is another question.
+    """
+    import worlds
+
+    return _drives(
+        cell, rng, trials, lambda: worlds.make(str(cell["world"]), rng), "ideal"
+    )
+
+
+def _drives(
+    cell: Cell,
+    rng: np.random.Generator,
+    trials: int,
+    make: Callable[[], World],
+    mapper: str,
+) -> Tallies:
     total: Counter[str] = Counter()
     body, sigma = str(cell["body"]), float(cell["sigma"])
+    improve = str(cell["improve"])
     for first in range(0, trials, PAIRS):
         for _ in range(MOST_WORLDS):
-            world = worlds.make(
-                "random",
-                rng,
-                corners=int(cell["corners"]),
-                islands=int(cell["islands"]),
-            )
-            improve = str(cell["improve"])
+            world = make()
             try:
-                built = build_map(world, rng, body=body, sigma=sigma, improve=improve)
+                built = build_map(world, rng, body=mapper, sigma=sigma, improve=improve)
             except JobError:
                 total["maps not correct"] += 1
                 continue
@@ -49,9 +73,9 @@ def random_pairs(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies:
                 break
             total["maps not correct"] += 1
         matched = match_world(built.map, world)
-        count = len(built.map.vertices)
+        ids = [vertex.id for vertex in built.map.vertices]
         for _ in range(min(PAIRS, trials - first)):
-            a, b = rng.choice(count, 2, replace=False).tolist()
+            a, b = rng.choice(ids, 2, replace=False).tolist()
             try:
                 drive = drive_route(matched, a, b, rng, body=body, sigma=sigma)
             except NoWayError:
@@ -112,5 +136,20 @@ EXPERIMENTS = (
         shares=("arrived", "planned anew", "silently elsewhere"),
         means=("travelled_m", "incursions taken", "found elsewhere", "collisions"),
         x="improve",
+    ),
+    Experiment(
+        "routes-halls",
+        "How many robots arrive that drive between random vertices of rooms and halls?",
+        tuple(
+            {"world": world, "body": body, "sigma": 0.06, "improve": "none"}
+            for body in ("ideal", "physical")
+            for world in ("rooms", "office", "hospital")
+        ),
+        hall_pairs,
+        trials=1000,
+        batch_size=PAIRS,
+        shares=("arrived", "planned anew", "silently elsewhere"),
+        means=("travelled_m", "found elsewhere", "collisions"),
+        x="world",
     ),
 )

@@ -165,8 +165,14 @@ def landing_limits(layout: Layout, part: float = 1.0) -> NDArray[np.float64]:
             for a, b in layout.ends
         ]
     )
+    # Where a hall opens, the wall ends before the vertex or at it.
+    opening = np.array(
+        [[types[k] is VertexType.SPLIT for k in pair] for pair in layout.ends]
+    )
     low = np.where(is_inner[:, 0], 0.0, layout.spans[:, 0]) + r_min
     high = np.where(is_inner[:, 1], layout.lengths, layout.spans[:, 1]) - r_min
+    low += np.where(opening[:, 0], layout.parameters.r0, 0.0)
+    high -= np.where(opening[:, 1], layout.parameters.r0, 0.0)
     return np.column_stack([low, high])
 
 

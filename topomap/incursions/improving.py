@@ -61,7 +61,7 @@ def improve_found(
     Parameters
     ----------
     found : Found
-        Of a world without halls.
+        Closed or open; without halls if ways shall be driven.
     improve : {"none", "passive", "active"}
         What to do.
     drift : Drift
@@ -83,14 +83,14 @@ def improve_found(
         If there is no such improvement.
     """
     walk = found.walk
-    if walk.period is None:
+    if not found.closed:
         return None
     return improve_map(
         found.map,
         improve,
         drift,
         body=body,
-        vertex=len(walk.legs) % walk.period,
+        vertex=len(walk.legs) % (walk.period or 1),
         new_closer=lambda: make_closer(closing, drift.sigma, body.parameters, slip=0.0),
     )
 

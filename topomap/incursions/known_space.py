@@ -46,9 +46,9 @@ def known_space(
     -----
     Along each wall the strip from the wall to the least range seen opposite is
     known, piece by piece: [K] 3.6.2 keeps one range for each wall. Around each
-    vertex a square of r0 is: open space is wider than two r0. The positions are
-    those of the map; how unsure they are is for the user of the space to count in,
-    as `passive_incursions` does.
+    vertex of a wall a square of r0 is: open space is wider than two r0. The
+    positions are those of the map; how unsure they are is for the user of the space
+    to count in, as `add_passive` does.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def known_space(
     1.44
     """
     r0 = layout.parameters.r0
-    x, y = layout.positions.T
+    x, y = layout.positions[np.unique(layout.ends)].T
     corners = shapely.box(x - r0, y - r0, x + r0, y + r0)
     crossed = [_corridor(layout, edge) for edge in layout.chart.edges if edge.reach]
     found = shapely.union_all([*_strips(layout), *crossed, *corners, *swept])

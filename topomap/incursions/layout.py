@@ -130,7 +130,6 @@ def lay_out(chart: TopologicalMap) -> Layout:
     positions = np.array([v.position for v in chart.vertices], dtype=float)
     positions = positions.reshape(-1, 2)
     index = {vertex.id: k for k, vertex in enumerate(chart.vertices)}
-    types = {vertex.id: vertex.type for vertex in chart.vertices}
     edges = tuple(e for e in chart.edges if e.behaviour == "WF" and not e.is_incursion)
     ends = np.array([(index[e.source], index[e.target]) for e in edges], dtype=int)
     ends = ends.reshape(-1, 2)
@@ -141,8 +140,15 @@ def lay_out(chart: TopologicalMap) -> Layout:
     length = (way * along).sum(axis=1)
     aside = (way * normal).sum(axis=1)
     r0 = robot.r0
-    first = np.array([OVERHANG.get(types[edge.source], 0.0) for edge in edges])
-    last = np.array([OVERHANG.get(types[edge.target], 0.0) for edge in edges])
+    inner = _inner_openings(ends, along)
+    overhang = {
+        vertex.id: OVERHANG[VertexType.INT]
+        if index[vertex.id] in inner
+        else OVERHANG.get(vertex.type, 0.0)
+        for vertex in chart.vertices
+    }
+    first = np.array([overhang[edge.source] for edge in edges])
+    last = np.array([overhang[edge.target] for edge in edges])
     spans = np.column_stack([-r0 * first, length + r0 * last])
     offset = (np.maximum(aside, 0.0) - r0)[:, None] * normal
     base = positions[ends[:, 0]] + offset
@@ -151,3 +157,17 @@ def lay_out(chart: TopologicalMap) -> Layout:
     return Layout(
         chart, robot, positions, covariance, edges, ends, along, segments, spans
     )
+
+
+def _inner_openings(ends: NDArray[np.int64], along: NDArray[np.float64]) -> set[int]:
+    """Return the rows of vertices at which the wall turns towards the robot.
+
+    They are inner corners, whether a hall opens there or not.
+    """
+    into = {int(b): along[w] for w, (_, b) in enumerate(ends)}
+    return {
+        int(a)
+        for w, (a, _) in enumerate(ends)
+        if int(a) in into
+        and into[int(a)][0] * along[w][1] - into[int(a)][1] * along[w][0] > 0.5
+    }

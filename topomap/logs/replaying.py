@@ -194,10 +194,8 @@ def replay_map(
         deviation,
         halls=about.halls,
     )
-    better = None
-    if not about.halls:
-        drift = replace(about.drift, sigma=deviation)
-        better = improve_found(found, about.improve, drift, body)
+    drift = replace(about.drift, sigma=deviation)
+    better = improve_found(found, about.improve, drift, body)
     return Replay(
         better.map if better else found.map,
         *(found.closed, found.loops, found.recognitions, found.walls),

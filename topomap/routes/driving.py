@@ -136,7 +136,9 @@ def _drive_through_halls(
     failure, routes = "", [first]
     events: list[Event] = []
     drive = drive_through_halls(
-        *(matched.chart, first, quarters, sigma, cost), is_hall=is_hall, events=events
+        *(matched.chart, first, quarters, body_drift(body, sigma), cost),
+        is_hall=is_hall,
+        events=events,
     )
     try:
         routes = run(drive, robot)

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from topomap.chart import Place
     from topomap.routes.hall_places import HallPlaces
 
-__all__ = ["Belief", "Standing", "begun", "moved", "surest"]
+__all__ = ["Belief", "Standing", "begun", "landed", "moved", "surest"]
 
 LOST = 1e-3
 """How often a way leads where nobody would expect."""
@@ -149,6 +149,31 @@ def _ends(
         total = way.length + on.length
         off = math.hypot(sigma * total, on.sigma, way.sigma, SLIP)
         yield Standing(on.vertex, turn), MISSED * _normal(length - total, off)
+
+
+def landed(
+    hall: HallPlaces, belief: Belief, shares: dict[int, float], turn: int
+) -> Belief:
+    """Return the belief of a robot that crossed open space.
+
+    Parameters
+    ----------
+    hall : HallPlaces
+        The map.
+    belief : Belief
+        Before it.
+    shares : dict of int to float
+        How probable each vertex is by what the robot reckoned and saw, if it stood
+        where it thought; what is missing to 1 is a place that the map does not have.
+    turn : int
+        As it thinks that it is turned, in quarter turns.
+    """
+    found = _anywhere(hall, belief)
+    _, sure = surest(belief)
+    for vertex, share in shares.items():
+        found[Standing(vertex, turn)] += sure * share
+    total = sum(found.values())
+    return {standing: weight / total for standing, weight in found.items()}
 
 
 def surest(belief: Belief) -> tuple[Standing, float]:

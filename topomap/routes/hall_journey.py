@@ -15,12 +15,14 @@ from behaviours.ways import turned
 from topomap.chart import Place
 from topomap.errors import JobError
 from topomap.routes.hall_belief import Belief, Standing, begun, moved, surest
+from topomap.routes.hall_crossing import cross_room
 from topomap.routes.hall_places import places_of
 from topomap.routes.journey import Event
 from topomap.routes.planning import Route, Step, plan_route
 
 if TYPE_CHECKING:
     from behaviours.port import Behaviour
+    from topomap.incursions.errors import Drift
     from topomap.routes.hall_places import HallPlaces
     from topomap.topological_map import TopologicalMap
 
@@ -42,8 +44,8 @@ class HallJourney:
     hall: HallPlaces
     """Of the chart."""
     parameters: Parameters
-    sigma: float
-    """Standard deviation of a length, as a part of the length."""
+    drift: Drift
+    """Errors of the robot."""
     heading: int
     """Of the robot, in quarter turns in its own directions."""
     place: Place
@@ -68,7 +70,7 @@ class HallJourney:
         self.place = Place(arrival.type, turned(arrival.ways, -quarters))
         self.belief = moved(
             *(self.hall, self.belief, quarters),
-            *(arrival.length, self.place, self.sigma),
+            *(arrival.length, self.place, self.drift.sigma),
         )
 
 
@@ -76,7 +78,7 @@ def drive_through_halls(
     chart: TopologicalMap,
     route: Route,
     quarters: int,
-    sigma: float,
+    drift: Drift,
     cost: str,
     *,
     is_hall: bool,
@@ -92,8 +94,8 @@ def drive_through_halls(
         From the vertex before which the robot stands.
     quarters : int
         The robot's direction, in quarter turns on the map.
-    sigma : float
-        Standard deviation of a length, as a part of the length.
+    drift : Drift
+        Errors of the robot.
     cost : {"metres", "risk"}
         What the route has least of.
     is_hall : bool
@@ -115,7 +117,7 @@ def drive_through_halls(
     hall = places_of(chart)
     place = Place(arrival.type, turned(arrival.ways, -quarters))
     journey = HallJourney(
-        *(chart, hall, parameters, sigma),
+        *(chart, hall, parameters, drift),
         heading=(quarters + arrival.facing) % 4,
         place=place,
         belief=begun(hall, route.source, place),
@@ -169,10 +171,13 @@ def go_through_halls(
             yield from journey.take(_way_on(journey, here))
             is_astray = True
             continue
-        exit_ = (journey.hall.quarter(step.exit) - here.turn) % 4
-        if journey.place.ways[exit_] is None:
-            exit_ = _way_on(journey, here)
-        yield from journey.take(exit_)
+        if step.edge.is_incursion:
+            yield from cross_room(journey, step.edge, here.turn, journey.drift)
+        else:
+            exit_ = (journey.hall.quarter(step.exit) - here.turn) % 4
+            if journey.place.ways[exit_] is None:
+                exit_ = _way_on(journey, here)
+            yield from journey.take(exit_)
         there, probability = surest(journey.belief)
         is_astray = there != (step.target, here.turn, None)
         if is_astray:

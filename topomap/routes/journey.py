@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
 
 from behaviours.port import Side
 from topomap.errors import JobError
@@ -15,7 +12,8 @@ from topomap.incursions.islands import add_loop
 from topomap.incursions.layout import Layout, lay_out
 from topomap.incursions.localising import believe, likeliest
 from topomap.incursions.locating import Found, NewLoop, locate
-from topomap.incursions.sureness import wall_of, with_sureness
+from topomap.incursions.sureness import with_sureness
+from topomap.routes.incursion_steps import take_incursion
 from topomap.routes.landing import land
 from topomap.routes.planning import Route, Step, plan_route
 from topomap.routes.steps import walk_wall
@@ -25,7 +23,7 @@ if TYPE_CHECKING:
     from evidence.walls import LoopCloser
     from topomap.incursions.errors import Drift
     from topomap.routes.steps import Arrival
-    from topomap.topological_map import Edge, TopologicalMap
+    from topomap.topological_map import TopologicalMap
 
 __all__ = ["Event", "Journey", "Outcome"]
 
@@ -88,7 +86,9 @@ class Journey:
         layout = self.layout
         origin = layout.index[step.source]
         if step.edge.reach is not None:
-            arrival, foretold = yield from self._cross(layout, step.edge)
+            arrival, foretold = yield from take_incursion(
+                layout, step.edge, self.heading, self.drift
+            )
             sure = arrival.corner is not None and self._is_there(
                 layout, arrival, origin, foretold, step
             )
@@ -192,36 +192,6 @@ class Journey:
                 self.drift.sigma,
             )
         )
-
-    def _cross(self, layout: Layout, edge: Edge) -> Behaviour[tuple[Arrival, int]]:
-        """Take an incursion; return the arrival and the wall that was meant."""
-        wall, end = wall_of(layout, edge)
-        heading = edge.target_exit + math.pi
-        side = Side.RIGHT if end else Side.LEFT
-        reach = edge.reach or 0.0
-        least = reach - 3.3 * self._deviation(layout, edge, wall) - layout.parameters.r0
-        arrival = yield from land(
-            layout.parameters,
-            self.heading,
-            edge.source_exit,
-            max(reach + min(least - reach, 0.0) * 0.5, 0.0),
-            self.drift,
-            (heading, side),
-            least,
-        )
-        return arrival, wall
-
-    def _deviation(self, layout: Layout, edge: Edge, wall: int) -> float:
-        """Return the deviation of the way to a wall, measured against the map."""
-        reach = edge.reach or 0.0
-        own = self.drift.sigma * reach
-        if edge.kind == "active":
-            return math.hypot(own, edge.fused.sigma)
-        ahead = np.array([math.cos(edge.source_exit), math.sin(edge.source_exit)])
-        normal = layout.normals[wall]
-        depth = max(abs(float(ahead @ normal)), 0.2)
-        cover = layout.relative(layout.index[edge.source], int(layout.ends[wall, 0]))
-        return math.hypot(own, math.sqrt(max(normal @ cover @ normal, 0.0)) / depth)
 
     def _is_there(
         self, layout: Layout, arrival: Arrival, origin: int, foretold: int, step: Step
