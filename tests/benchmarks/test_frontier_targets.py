@@ -7,7 +7,7 @@ import numpy as np
 import worlds
 from behaviours.parameters import Parameters
 from topomap.exploration.allocation import allocate
-from topomap.exploring import Exploration
+from topomap.explored import Exploration
 from topomap.team import mission
 from topomap.team.exploring import explore
 from topomap.team.frontiers import frontiers_of, way_lengths
