@@ -36,8 +36,8 @@ COLOURS = ("tab:blue", "tab:orange", "tab:red", "tab:green")
 
 def measured() -> Iterator[tuple[str, str | bytes]]:
     """Yield the pictures, as files of the site."""
-    yield "measured/merging.svg", render(success(), "svg")
-    yield "measured/reliability.svg", render(reliability(), "svg")
+    yield "gallery/merging.svg", render(success(), "svg")
+    yield "gallery/merging-reliability.svg", render(reliability(), "svg")
 
 
 def success() -> Figure:

@@ -62,8 +62,16 @@ class CrewBody(PhysicalBody):
         The world it stands in.
     signals : list of Signal
         What the beacons of the arena's robots say; the robot adds its own.
-    start, profile, rng, sigma, parameters
-        As for `PhysicalBody`.
+    start : Pose
+        Where it is set down, as the rest for `PhysicalBody`.
+    profile : Profile
+        Its measures, wheels and rangers.
+    rng : numpy.random.Generator
+        For all noise.
+    sigma : float
+        Standard deviation of a measured length, as a part of the length.
+    parameters : Parameters, optional
+        The lengths it keeps.
 
     Notes
     -----

@@ -12,7 +12,7 @@ from behaviours.port import Align, Side, run
 from topomap.bodies import body_drift, make_body
 from topomap.closers import make_closer
 from topomap.errors import JobError
-from topomap.routes.hall_journey import drive_through_halls
+from topomap.routes.hall_driving import drive_through_halls
 from topomap.routes.hall_places import has_halls
 from topomap.routes.journey import Event, Journey
 from topomap.routes.matching import Matched
