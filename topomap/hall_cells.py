@@ -51,6 +51,9 @@ class Stretch:
     """Where it ends, likewise."""
     ends: tuple[End, End]
     """What is there, at the lower and at the higher coordinate."""
+    pieces: tuple[tuple[float, float, float, float], ...]
+    """From its beginning on: where each begins and ends along the axis, and the
+    positions of its two walls, in metres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -231,17 +234,16 @@ def _stretches(
     for n in range(len(runs)):
         if n in before:
             continue
-        last = n
-        while last in after:
-            last = after[last]
-        ends = _end(kinds, runs[n], -1), _end(kinds, runs[last], +1)
-        (k0, a0, b0), (k1, a1, b1) = runs[n], runs[last]
-        yield Stretch(
-            axis,
-            (float(along[k0]), float(across[a0]), float(across[b0])),
-            (float(along[k1 + 1]), float(across[a1]), float(across[b1])),
-            ends,
+        chain = [n]
+        while chain[-1] in after:
+            chain.append(after[chain[-1]])
+        ends = _end(kinds, runs[n], -1), _end(kinds, runs[chain[-1]], +1)
+        pieces = tuple(
+            (float(along[k]), float(along[k + 1]), float(across[a]), float(across[b]))
+            for k, a, b in (runs[m] for m in chain)
         )
+        (low, _, a0, b0), (_, high, a1, b1) = pieces[0], pieces[-1]
+        yield Stretch(axis, (low, a0, b0), (high, a1, b1), ends, pieces)
 
 
 def _end(kinds: NDArray[np.int64], run: tuple[int, int, int], step: int) -> End:

@@ -131,7 +131,7 @@ def draw_halls(
     WorldError
         As `topomap.hall_junctions.junction_sides` does, or if vertices are too near.
     """
-    sides = junction_sides(parts, drawing.parameters)
+    sides = junction_sides(parts, free, drawing.parameters)
     exits = [
         {q for q in sides[n] if _is_hall(drawing.parameters, free, box, q)}
         for n, box in enumerate(parts.junctions)

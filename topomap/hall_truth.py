@@ -15,6 +15,7 @@ import shapely
 from topomap.hall_cells import hall_parts
 from topomap.hall_drawing import Drawing, draw_halls
 from topomap.hall_loops import attach, base_loops, check_spacing, draw_loop
+from topomap.hall_steps import check_steps
 from worlds.errors import WorldError
 
 if TYPE_CHECKING:
@@ -85,6 +86,7 @@ def true_hall_maps(world: World, parameters: Parameters) -> tuple[TopologicalMap
     free = _moved(_moved(world.free_space, -parameters.r_w), parameters.r_w)
     eroded = _moved(world.free_space, -r0 - STRICTLY)
     parts = hall_parts(free, _moved(eroded, r0 + STRICTLY), 2 * r0, r0 - parameters.r_w)
+    check_steps(parts, parameters.r_min)
     drawing = Drawing(parameters)
     mouths = draw_halls(drawing, parts, free)
     loops = base_loops(eroded, parameters)

@@ -49,9 +49,37 @@ ROOM = (0, 0, 2, 2)
         pytest.param(
             ROBOT,
             ((0, 0, 2.5, 0.5), (2, 0.06, 5, 0.56), (2, 0, 2.5, 2), (-2, -1, 0, 1)),
-            "junction at (2.25, 0.28): halls that face each other are 0.06 m off each "
-            "other's middle; expected at most 0.03 m",
+            "junction at (2.25, 0.28): the middle of the halls along x shifts by 0.06 "
+            "m within 0.3 m of it; expected at most 0.03 m, a tenth of r0",
             id="facing halls",
+        ),
+        pytest.param(
+            ROBOT,
+            # Beside the junction the halls' middles agree; 8 cm farther they do not.
+            (
+                *((-4, -1.5, -2, 1.5), (-2, -0.08, 0.5, 0.36), (0, 0, 2, 0.42)),
+                (-0.02, -2, 0.42, 0.4),
+            ),
+            "junction at (0.2, 0.17): the middle of the halls along x shifts by 0.07 m "
+            "within 0.3 m of it; expected at most 0.03 m, a tenth of r0",
+            id="shift beside a junction",
+        ),
+        pytest.param(
+            ROBOT,
+            (
+                *((-4, -1.5, -2, 1.5), (-2, -0.3, -0.82, 0.12)),
+                *((-0.82, -0.26, 0.21, 0.24), (-0.21, -2, 0.21, 0.15)),
+            ),
+            "hall at (-0.82, -0.07): its walls step to 0.13 m from its middle; "
+            "expected at least 0.15 m, r_min",
+            id="step into the way",
+        ),
+        pytest.param(
+            ROBOT,
+            ((-4, -1.5, -2, 1.5), (-2, -0.22, 0.15, 0.24), (-0.22, -2, 0.2, 0.15)),
+            "junction at (-0.01, 0.01): a wall reaches into the way along x; expected "
+            "none nearer than 0.15 m, r_min, to the hall's middle",
+            id="corner in the way",
         ),
         pytest.param(
             ROBOT,
