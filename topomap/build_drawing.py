@@ -46,7 +46,7 @@ def fill_figure(built: Build, world: World, figure: Figure) -> None:
     loops = (built.loops or (built.walk,))[:MOST_LOOPS]
     rows = len(loops) + bool(built.recognitions)
     figure.set_size_inches(13, max(7.0, 2.6 * rows))
-    grid = figure.add_gridspec(rows, 2, width_ratios=(3, 2), hspace=0.8)
+    grid = figure.add_gridspec(rows, 2, width_ratios=(3, 2))
     draw_build(built, world, figure.add_subplot(grid[:, 0]))
     for k, walk in enumerate(loops):
         draw_belief(walk, figure.add_subplot(grid[k, 1]))
@@ -129,7 +129,8 @@ def draw_belief(walk: Walk, ax: Axes) -> Axes:
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel("walls walked")
     ax.set_ylabel("belief to plausibility")
-    ax.set_title(f"{len(believed)} hypotheses", fontsize=9)
+    hypotheses = "hypothesis" if len(believed) == 1 else "hypotheses"
+    ax.set_title(f"{len(believed)} {hypotheses}", fontsize=9)
     if walk.period in believed:
         ax.legend(fontsize=7, loc="lower right")
     ax.grid(alpha=0.3)

@@ -62,6 +62,18 @@ def test_beyond_halls_the_timeline_holds_every_recognition():
     assert len({x for x, _ in drawn}) > 1
 
 
+def test_the_timelines_beside_a_map_of_many_loops_have_room():
+    world = worlds.make("rooms", np.random.default_rng(3))
+    built = build_map(world, np.random.default_rng(1), sigma=0.04)
+    figure = Figure(layout="constrained")
+    fill_figure(built, world, figure)
+    figure.draw_without_rendering()
+    _, *timelines = figure.axes
+    assert len(timelines) > 2
+    heights = [ax.get_position().height for ax in timelines]
+    assert sum(heights) > 0.5
+
+
 @pytest.mark.parametrize("name", [name for name, _ in drawings()])
 def test_each_function_draws_into_the_axes_and_returns_them(ax, name):
     draw = dict(drawings())[name]
