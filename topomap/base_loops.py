@@ -34,32 +34,45 @@ def is_open_loop(chart: Chart, vertex: int) -> bool:
 
 
 def close_loop(found: Exploration) -> Behaviour[bool]:
-    """Walk along the wall, the wall on the right, until the loop is closed."""
+    """Walk along the wall, the wall on the right, until the loop is closed.
+
+    Before an opening in a straight wall, whose two sides may be up to r0 - r_min off
+    each other, a robot that came out of the hall does not know which of them it is r0
+    away from. There the loop begins at the next vertex.
+    """
     places = [found.chart.places[found.here]]
     arrivals: list[Arrival] = []
     decisions: list[Decision] = []
-    found.closer.begin(*_corner(places[0]))
+    if _corner(places[0])[1] == 0.0:
+        place, arrival = yield from leave(found, places[0], _onward(places[0]))
+        places.append(place)
+        arrivals.append(arrival)
+    first = len(arrivals)
+    found.closer.begin(*_corner(places[first]))
     period = None
     while period is None and found.walls < found.max_walls:
-        quarters = places[-1].ways.index(Way.WALL_RIGHT)
-        place, arrival = yield from leave(found, places[-1], quarters)
+        place, arrival = yield from leave(found, places[-1], _onward(places[-1]))
         places.append(place)
         arrivals.append(arrival)
         decisions.append(
             found.closer.observe(Wall(arrival.length, *_corner(place), arrival.shift))
         )
         period = decisions[-1].period
-        if period and not _fits(found, places[decisions[-1].start :], period):
+        start = first + decisions[-1].start
+        if period and not _fits(found, places[start:], period):
             period = None
     found.closed = period is not None
-    legs = (Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals)
-    start = decisions[-1].start if period and decisions else 0
-    entry: int | None = 0
-    if start and period:
+    legs = [Leg(a.type, a.length, a.shift, a.clearance) for a in arrivals[first:]]
+    entry: int | None
+    if period is None:
+        start = entry = 0
+    elif start == first:
+        entry = first * period
+    else:
         entry = find_entry(places, arrivals, start, period, found.sigma)
     if entry is None:
         found.begin_anew(places[start])
-    found.loops.append(Walk(places[0].type, tuple(legs), tuple(decisions)))
+    found.loops.append(Walk(places[first].type, tuple(legs), tuple(decisions)))
     at = 0 if entry is None else entry - start
     _fold(found, places[start:], arrivals[start:], period or len(places), at)
     if entry is None:
@@ -78,12 +91,17 @@ def _fits(found: Exploration, places: list[Place], period: int) -> bool:
     return places[-1] == places[-1 - period] and len(places) > laps * period
 
 
+def _onward(place: Place) -> int:
+    """Return the way of a vertex along the wall on the right."""
+    return place.ways.index(Way.WALL_RIGHT)
+
+
 def _corner(place: Place) -> tuple[str, float]:
     """Return a vertex of a base loop as a corner: its kind, and the turn there.
 
     The halls that begin there are part of its kind.
     """
-    onward = place.ways.index(Way.WALL_RIGHT)
+    onward = _onward(place)
     turn = (onward - place.ways.index(Way.WALL_LEFT) - 1) % 4 - 1
     halls = "".join(
         str((quarters - onward) % 4)
@@ -115,7 +133,7 @@ def _fold(
         for k, place in enumerate(likeliest)
     ]
     for k, arrival in enumerate(arrivals):
-        quarters = likeliest[k % period].ways.index(Way.WALL_RIGHT)
+        quarters = _onward(likeliest[k % period])
         end = numbers[k % period], quarters
         if end not in chart.links:
             there = numbers[(k + 1) % period], (quarters + 2) % 4
