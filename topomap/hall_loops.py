@@ -193,13 +193,14 @@ def _insert(
 
 
 def check_spacing(loop: list[Corner], parameters: Parameters) -> None:
-    """Check that wall is left between each opening and the vertices beside it.
+    """Check that there is room around each opening: in the wall, and before it.
 
     Raises
     ------
     WorldError
-        Names the opening, how much wall is left, and how much must be.
+        Names the opening, how much room is left, and how much must be.
     """
+    _check_narrow(loop, parameters)
     kept = [corner for corner in loop if corner.is_kept]
     for one, other in zip(kept, [*kept[1:], *kept[:1]], strict=True):
         for split, beside in ((one, other), (other, one)):
@@ -207,6 +208,26 @@ def check_spacing(loop: list[Corner], parameters: Parameters) -> None:
                 a, b = AHEAD[split.leaving]
                 way = abs(a * (beside.x - split.x) + b * (beside.y - split.y))
                 _check_clear(split.opening, way, beside, parameters.r0)
+
+
+def _check_narrow(loop: list[Corner], parameters: Parameters) -> None:
+    """Check that no hall opens at an inner corner of a room hardly wider than 2 r0.
+
+    Whether a wall there belongs to the corner or to the hall across the room is told by
+    less than what makes a corner.
+    """
+    ring = [corner for corner in loop if corner.opening is None]
+    for one, other in zip(ring, [*ring[1:], *ring[:1]], strict=True):
+        way = math.dist((one.x, one.y), (other.x, other.y))
+        is_narrow = one.is_inner and other.is_inner and way <= parameters.least_jut
+        for corner in (one, other):
+            if corner.halls and is_narrow:
+                least = 2 * parameters.r0 + parameters.least_jut
+                raise WorldError(
+                    f"opening at the inner corner ({corner.x:.4g}, {corner.y:.4g})",
+                    f"the room is {2 * parameters.r0 + way:.4g} m wide there; expected "
+                    f"more than {least:.4g} m, 3 r0 - r_min",
+                )
 
 
 def _check_clear(opening: Mouth, way: float, beside: Corner, r0: float) -> None:

@@ -1,0 +1,80 @@
+"""Rooms hardly wider than 2 r0, with halls on up to four sides."""
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from behaviours import Parameters
+from tests.topomap.test_explore import union
+from topomap import build_map
+from topomap.truth import true_maps
+from worlds.errors import WorldError
+
+ROBOT = Parameters()
+
+
+def small_room(width, height, halls):
+    """Return a room from (0, 0) on, and behind each of its halls a larger room.
+
+    Halls are (width, offset) by the direction that they lead in, in quarter turns; the
+    offset counts to the right, or up.
+    """
+    boxes = [(0, 0, width, height)]
+    for way, (wide, off) in halls.items():
+        rim = (width, height, 0, 0)[way]
+        ends = (rim - 0.1, 5, 4.9, 7) if way < 2 else (-5, rim + 0.1, -7, -4.9)
+        hall = ends[0], off, ends[1], off + wide
+        room = ends[2], off - 1, ends[3], off + 2
+        boxes += [box if way % 2 == 0 else turned(box) for box in (hall, room)]
+    return union(*boxes)
+
+
+def turned(box):
+    x0, y0, x1, y1 = box
+    return y0, x0, y1, x1
+
+
+# In millimetres; they begin or end at a corner, most of them exactly.
+halls_at_corners = st.dictionaries(
+    st.integers(0, 3),
+    st.tuples(st.integers(420, 580), st.booleans(), st.sampled_from([0, 0, 0, 20])),
+    min_size=1,
+)
+
+
+@settings(max_examples=80, deadline=None)
+@given(
+    width=st.integers(605, 1000),
+    height=st.integers(605, 1000),
+    halls=halls_at_corners,
+)
+@example(width=725, height=661, halls={1: (558, True, 0)})
+@example(width=900, height=800, halls={0: (500, True, 0), 2: (450, False, 0)})
+def test_a_small_room_is_mapped_or_refused(width, height, halls):
+    placed = {}
+    for way, (wide, is_far, off) in halls.items():
+        span = width if way % 2 else height
+        placed[way] = wide / 1000, (span - wide - off if is_far else off) / 1000
+    world = small_room(width / 1000, height / 1000, placed)
+    try:
+        true_maps(world, ROBOT)
+    except WorldError:
+        return
+    built = build_map(world, np.random.default_rng(1), sigma=0.0, max_walls=500)
+    assert built.correct
+    assert built.map.unexplored_exits == 0
+
+
+@pytest.mark.parametrize(("width", "is_refused"), [(0.75, True), (0.7501, False)])
+def test_a_corner_with_a_hall_needs_room_on_both_sides(width, is_refused):
+    world = small_room(width, 2.0, {1: (0.5, 0.0)})
+    if is_refused:
+        with pytest.raises(
+            WorldError,
+            match=r"^opening at the inner corner \(0\.3, 1\.7\): the room is 0\.75 m wide "
+            r"there; expected more than 0\.75 m, 3 r0 - r_min",
+        ):
+            true_maps(world, ROBOT)
+    else:
+        assert len(true_maps(world, ROBOT)) == 1
