@@ -39,7 +39,17 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, NamedTuple
 
 from behaviours.automaton import Automaton, Path, Row, perform
-from behaviours.port import Approach, Behaviour, Outcome, Reason, Sensor, Side, Until
+from behaviours.port import (
+    Approach,
+    Behaviour,
+    Outcome,
+    Reason,
+    Sensor,
+    Side,
+    Swept,
+    Until,
+)
+from behaviours.sweeping import swept_together
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -111,6 +121,8 @@ class Opening:
     """How far the robot has gone since the opening's beginning, in metres."""
     is_flush: bool
     """Whether a wall ahead is its far side."""
+    swept: tuple[Swept, ...] = ()
+    """What the sides saw on the way."""
 
 
 def explore_opening(
@@ -170,4 +182,5 @@ def explore_opening(
     else:
         is_slit = last.upto <= (least - keep if is_flush else least)
         found = VertexType.ILL if is_slit else VertexType.SPLIT
-    return Opening(found, width, distance, is_flush)
+    swept = swept_together(stage.outcome for _, stage in done_)
+    return Opening(found, width, distance, is_flush, swept)
