@@ -39,7 +39,17 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, NamedTuple
 
 from behaviours.automaton import Automaton, Path, Row, perform
-from behaviours.port import Approach, Behaviour, Outcome, Reason, Sensor, Side, Until
+from behaviours.port import (
+    Approach,
+    Behaviour,
+    Outcome,
+    Reason,
+    Sensor,
+    Side,
+    Swept,
+    Until,
+)
+from behaviours.sweeping import swept_together
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -137,6 +147,8 @@ class Opening:
     is_flush: bool
     """Whether a wall ahead is the far side, so that the opening is at a corner; the
     robot keeps r0 from it (in a hall, r_min)."""
+    swept: tuple[Swept, ...] = ()
+    """What the sides saw on the way."""
 
 
 def explore_opening(
@@ -196,4 +208,5 @@ def explore_opening(
     else:
         is_slit = last.upto <= (least - keep if is_flush else least)
         found = VertexType.ILL if is_slit else VertexType.SPLIT
-    return Opening(found, width, distance, is_flush)
+    swept = swept_together(stage.outcome for _, stage in done_)
+    return Opening(found, width, distance, is_flush, swept)
