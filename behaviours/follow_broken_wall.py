@@ -218,9 +218,14 @@ def follow_broken_wall(
 
     Raises
     ------
+    ValueError
+        From the running coroutine, if no wall leads on from such a vertex.
     UnforeseenError
         From the running coroutine, if the body is stuck or bumps where it probes.
     """
+    start = START.get(place)
+    if start is None:
+        raise ValueError(f"place must be INT, EXT, SPLIT or None; got {place}")
     r0 = parameters.r0
 
     def open_up(_: Path[State]) -> Behaviour[Opening]:
@@ -249,7 +254,7 @@ def follow_broken_wall(
         State.MF_PAST: Move(r0),
         State.CORNER: examine,
     }
-    path = yield from perform(FOLLOW_BROKEN_WALL, actions, START[place])
+    path = yield from perform(FOLLOW_BROKEN_WALL, actions, start)
     *done_, (end, _) = path
     type_, ways = ENDS[end]
     turned_away = end in (State.INT, State.SPLIT_ACROSS)

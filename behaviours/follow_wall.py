@@ -158,10 +158,15 @@ def follow_wall(parameters: Parameters, corner: VertexType | None) -> Behaviour[
 
     Raises
     ------
+    ValueError
+        From the running coroutine, if the vertex is none of these.
     UnforeseenError
         From the running coroutine, if the body is stuck, or bumps while it aligns.
     """
-    path = yield from perform(FOLLOW_WALL, actions(parameters), START[corner])
+    start = START.get(corner)
+    if start is None:
+        raise ValueError(f"corner must be INT, EXT or None; got {corner}")
+    path = yield from perform(FOLLOW_WALL, actions(parameters), start)
     *done_, (end, _) = path
     swept = swept_together(outcome for _, outcome in done_)
     return Leg(

@@ -196,7 +196,7 @@ def leave_hall(parameters: Parameters) -> Behaviour[Arrival]:
     }
     path = yield from perform(LEAVE_HALL, actions, State.MF)
     beside: Beside = path[0][1]
-    results = dict(path)
+    results = dict(path[:-1])
     side = beside.wall
     if State.AF in results and not juts_out(results[State.AF]):
         side = None
