@@ -111,6 +111,8 @@ class Opening:
     """How far the robot has gone since the opening's beginning, in metres."""
     is_flush: bool
     """Whether a wall ahead is its far side."""
+    leads_on: bool = False
+    """Whether another hall begins at its far side, and leads on ahead."""
 
 
 def explore_opening(
@@ -170,4 +172,6 @@ def explore_opening(
     else:
         is_slit = last.upto <= (least - keep if is_flush else least)
         found = VertexType.ILL if is_slit else VertexType.SPLIT
-    return Opening(found, width, distance, is_flush)
+    here = last.outcome.readings
+    leads_on = end is State.FAR and here.left + here.right <= 2 * parameters.r0
+    return Opening(found, width, distance, is_flush, leads_on)

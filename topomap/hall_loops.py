@@ -159,10 +159,6 @@ def attach(mouth: Mouth, loops: list[list[Corner]], parameters: Parameters) -> C
                     continue
                 if not corner.is_inner:
                     continue
-                if corner.halls:
-                    raise WorldError(
-                        mouth.name, "another hall opens at the same inner corner"
-                    )
                 if corner.is_kept:
                     corner.halls.append((mouth.out + 2) % 4)
                     return corner
