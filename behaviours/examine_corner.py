@@ -17,10 +17,10 @@
 | MF_BOTH | done | BOTH |
 | MF_ONE | done | ALONG |
 
-A hall may begin at the very corner, its one wall the other wall of the corner:
-in the wall that was followed (ALONG), in the wall ahead (ACROSS), or one in each
-(BOTH). [K]_ Annex C.3: the robot goes closer to such walls than r0, "since they can open on halls
-of width less than r0". Preconditions: the robot stands r0 before the wall ahead,
+A hall may begin at the very corner, its one wall the other wall of the corner: in the
+wall that was followed (ALONG), in the wall ahead (ACROSS), or one in each (BOTH).
+[K]_ Annex C.3: the robot goes closer to such walls than r0, "since they can open on
+halls of width less than r0". Preconditions: the robot stands r0 before the wall ahead,
 the followed wall on side X; in T_OPEN, where the opening in that wall is known.
 Postcondition: it stands there, and has turned away from X. Returns where the
 openings are.
