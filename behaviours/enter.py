@@ -143,7 +143,8 @@ def enter(
             limit=2 * parameters.r0,
         )
     if is_between and side is not None:
-        closer = parameters.r0 - parameters.r_w
+        # To the middle of a hall that is r0 + r_min wide.
+        closer = (parameters.r0 - parameters.r_min) / 2
         actions[State.MF_CLOSER] = Move(closer)
         path = yield from perform(ENTER, actions, State.MF_CLOSER)
         (_, first), *rest = path[:-1]
