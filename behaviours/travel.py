@@ -85,7 +85,8 @@ def _into_hall(parameters: Parameters, ways: Ways, quarters: int) -> Behaviour[A
     if is_between:
         # Look into the other hall first.
         last: Side | None = Side.RIGHT if left is Way.HALL else Side.LEFT
-        before = list(TURNS[(quarters - last.value) % 4])
+        other = quarters + 1 if left is Way.HALL else quarters - 1
+        before = list(TURNS[other % 4])
     else:
         *before, last = TURNS[quarters] or (None,)
     for side in before:
