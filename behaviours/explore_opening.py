@@ -39,7 +39,17 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, NamedTuple
 
 from behaviours.automaton import Automaton, Path, Row, perform
-from behaviours.port import Approach, Behaviour, Outcome, Reason, Sensor, Side, Until
+from behaviours.port import (
+    Approach,
+    Behaviour,
+    Outcome,
+    Reason,
+    Sensor,
+    Side,
+    Swept,
+    Until,
+)
+from behaviours.sweeping import swept_together
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -113,6 +123,8 @@ class Opening:
     """Whether a wall ahead is its far side."""
     leads_on: bool = False
     """Whether another hall begins at its far side, and leads on ahead."""
+    swept: tuple[Swept, ...] = ()
+    """What the sides saw on the way."""
 
 
 def explore_opening(
@@ -174,4 +186,5 @@ def explore_opening(
         found = VertexType.ILL if is_slit else VertexType.SPLIT
     here = last.outcome.readings
     leads_on = end is State.FAR and here.left + here.right <= 2 * parameters.r0
-    return Opening(found, width, distance, is_flush, leads_on)
+    swept = swept_together(stage.outcome for _, stage in done_)
+    return Opening(found, width, distance, is_flush, leads_on, swept)

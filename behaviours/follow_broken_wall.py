@@ -290,14 +290,37 @@ def follow_broken_wall(
     type_, ways = ENDS[end]
     turned_away = done_[-1][0] in AT_CORNER
     outcomes = [result for _, result in done_ if isinstance(result, Outcome)]
+    widths = _widths(done_, side)
+    seen = (*(outcome.clearance for outcome in outcomes), *(w for _, w in widths))
     return Arrival(
         type_,
         ways if side is Side.RIGHT else mirrored(ways),
         length=sum(_way(state, result) for state, result in done_),
         shift=sum(outcome.shift for outcome in outcomes),
-        clearance=min((outcome.clearance for outcome in outcomes), default=math.inf),
+        clearance=min(seen, default=math.inf),
         facing=side.opposite.value if turned_away else 0,
+        widths=widths,
     )
+
+
+def _widths(path: Path[State], side: Side) -> tuple[tuple[float, float], ...]:
+    """Return what was seen on the side away from the wall, piece by piece."""
+    way = 0.0
+    found: list[tuple[float, float]] = []
+    for state, result in path:
+        after = way + _way(state, result)
+        if after < way:
+            # What it has gone back from is no part of the way.
+            beyond = [width for until, width in found if until >= after]
+            found = [(until, width) for until, width in found if until < after]
+            found += [(after, width) for width in beyond[:1]]
+        elif state not in AT_CORNER:
+            found += [
+                (way + seen.until, seen.left if side is Side.RIGHT else seen.right)
+                for seen in result.swept
+            ]
+        way = after
+    return tuple(found)
 
 
 def _back(distance: float) -> Move:

@@ -139,7 +139,7 @@ def _fold(
                 _join_walked(found, there, end[0], likeliest[len(arrivals) % period])
             else:
                 chart.add_link(end, there, "WF")
-        chart.links[end].measure(arrival)
+        chart.links[end].measure(arrival, end)
     found.here = numbers[len(arrivals) % period]
 
 
