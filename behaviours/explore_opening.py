@@ -147,6 +147,8 @@ class Opening:
     is_flush: bool
     """Whether a wall ahead is the far side, so that the opening is at a corner; the
     robot keeps r0 from it (in a hall, r_min)."""
+    leads_on: bool = False
+    """Whether another hall begins at its far side, and leads on ahead."""
     swept: tuple[Swept, ...] = ()
     """What the sides saw on the way."""
 
@@ -208,5 +210,7 @@ def explore_opening(
     else:
         is_slit = last.upto <= (least - keep if is_flush else least)
         found = VertexType.ILL if is_slit else VertexType.SPLIT
+    here = last.outcome.readings
+    leads_on = end is State.FAR and here.left + here.right <= 2 * parameters.r0
     swept = swept_together(stage.outcome for _, stage in done_)
-    return Opening(found, width, distance, is_flush, swept)
+    return Opening(found, width, distance, is_flush, leads_on, swept)
