@@ -10,7 +10,6 @@ from tests.topomap.test_explore import union
 from topomap import build_map
 from topomap.truth import true_maps
 from worlds.errors import WorldError
-from worlds.makers import make
 
 ROBOT = Parameters()
 
@@ -79,12 +78,3 @@ def test_a_corner_with_a_hall_needs_room_on_both_sides(width, is_refused):
             true_maps(world, ROBOT)
     else:
         assert len(true_maps(world, ROBOT)) == 1
-
-
-@pytest.mark.parametrize(
-    ("kind", "seed"),
-    [("rooms", 50035), ("halls", 50039), ("office", 50026), ("hospital", 50012)],
-)
-def test_made_worlds_leave_corners_with_a_hall_room(kind, seed):
-    # What stands in these rooms was drawn as near to a wall as it may be.
-    assert true_maps(make(kind, np.random.default_rng(seed)), ROBOT)

@@ -37,8 +37,8 @@ STRIDE = MARGIN + WIDE
 
 A hall on the room's second line, off it by at most LEAST, keeps MARGIN to the corner.
 """
-APART = 442
-"""Least way between things in open space: 75.1 cm, more than 3 r0 - r_min."""
+APART = 441
+"""Least way between things in open space: 75 cm."""
 LEAST_SOLID = 295
 """Least side of what stands in a room: 50 cm."""
 
