@@ -253,11 +253,6 @@ def test_the_wall_opposite_is_examined_and_left_again():
     [
         # An opening that begins 10 cm from a corner of the room.
         (((0, 0, 3, 3), (3, 0.1, 5, 0.6)), "from the corner beside it"),
-        # Two halls at one corner.
-        (
-            ((0, 0, 3, 3), (3, 0, 5, 0.5), (2.5, -2, 3, 0)),
-            "another hall opens at the same inner",
-        ),
         # A crossing whose halls are shifted against each other.
         (
             ((0, 0, 2, 2), (2, 0.8, 6, 1.3), (4, 1.3, 4.5, 3), (4.3, -1, 4.8, 0.8)),
