@@ -18,7 +18,6 @@ from topomap import build_map
 from topomap.chart import Chart, Place
 from topomap.errors import InputError
 from topomap.exploration import allocate
-from topomap.incursions.known_space import free_space
 from topomap.incursions.layout import lay_out
 from topomap.routes.hall_places import places_of
 from topomap.team.frontiers import frontiers_of
@@ -238,13 +237,18 @@ def test_incursions_are_targets_on_a_grid_too(driven):
         assert graph[ids.index(here), sent.frontiers.index(one)] < nearest + 0.5
 
 
-def test_ways_across_lie_in_free_space_on_the_grid(driven):
-    """They go straight to a wall, and along it: no straight line through an island."""
+def test_ways_across_lie_on_the_grid_as_they_are_driven(driven):
+    """They go straight to a wall, and along it, and not straight to the vertex."""
     grid = lay_on_grid(driven, 0.05)
-    rows, columns = np.nonzero(grid.free)
-    x = grid.origin[0] + (columns + 0.5) * grid.resolution
-    y = grid.origin[1] + (rows + 0.5) * grid.resolution
-    assert shapely.contains_xy(free_space(lay_out(driven)), x, y).all()
+    places = {v.id: np.array(v.position) for v in driven.vertices}
+    across = [edge for edge in driven.edges if edge.is_incursion]
+    assert across
+    for edge in across:
+        ahead = np.array([math.cos(edge.source_exit), math.sin(edge.source_exit)])
+        for part in (0.25, 0.5, 0.75):
+            x, y = places[edge.source] + part * edge.reach * ahead - grid.origin
+            row, column = int(y / grid.resolution), int(x / grid.resolution)
+            assert grid.free[row - 1 : row + 2, column - 1 : column + 2].any()
 
 
 @pytest.mark.parametrize(
