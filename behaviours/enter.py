@@ -7,6 +7,7 @@ table C.10 of [K]_:
 |---|---|---|
 | T | done | AF |
 | T_AT_WALL | done | AL |
+| MF_CLOSER | done | T |
 | AL | done | AF |
 | AL | receded | AF_BESIDE |
 | AF_BESIDE | seen | AL |
@@ -21,7 +22,8 @@ Returns the way into the hall, along it and to the left.
 Where the hall opens at a corner, r0 from its one wall may be too near to its other:
 the robot first stands r_w from the corner's wall (AL), where every hall is free. That
 wall may begin a little ahead, where a mouth's two edges are not across from each
-other (AF_BESIDE).
+other (AF_BESIDE). Where another hall opens in that wall, the robot looks into that one
+first, and comes as near to its mouth (MF_CLOSER).
 
 Differs from the source, which returns r_w: the hall's width is in the readings,
 and the way is what the map needs.
@@ -44,6 +46,7 @@ from behaviours.port import (
     Approach,
     Behaviour,
     Centre,
+    Move,
     Primitive,
     Sensor,
     Side,
@@ -64,6 +67,8 @@ class State(Enum):
     """Towards the hall."""
     T_AT_WALL = auto()
     """Towards a hall that begins at a corner."""
+    MF_CLOSER = auto()
+    """Closer to the mouth of another hall at the corner, beside the one to enter."""
     AL = auto()
     AF_BESIDE = auto()
     """Forward until the corner's wall is beside."""
@@ -74,10 +79,11 @@ class State(Enum):
 
 
 # fmt: off
-ENTER = Automaton((State.T, State.T_AT_WALL, State.AL, State.AF), (
+ENTER = Automaton((State.T, State.T_AT_WALL, State.MF_CLOSER, State.AL, State.AF), (
     #   in               when      go to
     Row(State.T,         done,     State.AF),
     Row(State.T_AT_WALL, done,     State.AL),
+    Row(State.MF_CLOSER, done,     State.T),
     Row(State.AL,        done,     State.AF),
     Row(State.AL,        receded,  State.AF_BESIDE),
     Row(State.AF_BESIDE, seen,     State.AL),
@@ -88,7 +94,11 @@ ENTER = Automaton((State.T, State.T_AT_WALL, State.AL, State.AF), (
 
 
 def enter(
-    parameters: Parameters, side: Side | None, wall: Side | None = None
+    parameters: Parameters,
+    side: Side | None,
+    wall: Side | None = None,
+    *,
+    is_between: bool = False,
 ) -> Behaviour[tuple[float, float]]:
     """Drive into a hall.
 
@@ -100,6 +110,8 @@ def enter(
         X, where the hall is; None for ahead.
     wall : Side or None
         Where the corner's wall is, seen with the hall ahead, if it opens at one.
+    is_between : bool
+        Whether the robot looks into another hall that opens at the same corner.
 
     Returns
     -------
@@ -129,6 +141,18 @@ def enter(
             within=parameters.r_max,
             keep=parameters.r_min,
             limit=2 * parameters.r0,
+        )
+    if is_between and side is not None:
+        # To the middle of a hall that is r0 + r_min wide.
+        closer = (parameters.r0 - parameters.r_min) / 2
+        actions[State.MF_CLOSER] = Move(closer)
+        path = yield from perform(ENTER, actions, State.MF_CLOSER)
+        (_, first), *rest = path[:-1]
+        # Ahead before the turn is to the other side of the hall.
+        aside = -side.value * first.distance
+        return (
+            sum(o.distance for _, o in rest),
+            aside + sum(o.shift for _, o in rest),
         )
     start = {
         (False, False): State.AF,

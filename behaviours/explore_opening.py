@@ -39,7 +39,17 @@ from enum import Enum, auto
 from typing import TYPE_CHECKING, NamedTuple
 
 from behaviours.automaton import Automaton, Path, Row, perform
-from behaviours.port import Approach, Behaviour, Outcome, Reason, Sensor, Side, Until
+from behaviours.port import (
+    Approach,
+    Behaviour,
+    Outcome,
+    Reason,
+    Sensor,
+    Side,
+    Swept,
+    Until,
+)
+from behaviours.sweeping import swept_together
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -101,16 +111,46 @@ EXPLORE_OPENING = Automaton((State.AF,), (
 
 @dataclass(frozen=True, slots=True)
 class Opening:
-    """What EXO found; where it returns no width there is no opening."""
+    """What EXO found where a wall, or a hall, was interrupted.
+
+    The robot stands `distance` ahead of where it began to examine the opening: at its
+    far side; before that, where a wall ahead is the far side; or 2 r0 and more from
+    the opening's beginning, where there is none.
+
+    Notes
+    -----
+    EXO of table C.12 of [K]_ returns a type and a width. PROBE and the followers of
+    walls drive back over what was driven as well, which with a flush far side, or
+    with a beginning behind the robot, is not the width.
+
+    Examples
+    --------
+    A hall half a metre wide, that the robot has passed:
+
+    >>> found = Opening(VertexType.SPLIT, width=0.5, distance=0.5, is_flush=False)
+
+    The same, ending at a wall ahead, r0 = 0.3 m before which the robot stopped:
+
+    >>> flush = Opening(VertexType.SPLIT, width=0.5, distance=0.2, is_flush=True)
+    """
 
     type: VertexType
-    """SPLIT, ILL where it is too narrow, or the N that was asked for."""
+    """SPLIT, as wide as a hall; ILL, too narrow to enter, so that the wall is taken to
+    go on; or N as it was asked for: no far side within 2 r0."""
     width: float
-    """In metres; what was driven where there is no far side."""
+    """From its beginning to its far side, in metres by odometry, what lay behind the
+    robot and what is left ahead of it included; where there is no far side, how far
+    it is open at least."""
     distance: float
-    """How far the robot has gone since the opening's beginning, in metres."""
+    """How far the robot has gone since it began to examine it, in metres by odometry:
+    what it has to go back."""
     is_flush: bool
-    """Whether a wall ahead is its far side."""
+    """Whether a wall ahead is the far side, so that the opening is at a corner; the
+    robot keeps r0 from it (in a hall, r_min)."""
+    leads_on: bool = False
+    """Whether another hall begins at its far side, and leads on ahead."""
+    swept: tuple[Swept, ...] = ()
+    """What the sides saw on the way."""
 
 
 def explore_opening(
@@ -170,4 +210,7 @@ def explore_opening(
     else:
         is_slit = last.upto <= (least - keep if is_flush else least)
         found = VertexType.ILL if is_slit else VertexType.SPLIT
-    return Opening(found, width, distance, is_flush)
+    here = last.outcome.readings
+    leads_on = end is State.FAR and here.left + here.right <= 2 * parameters.r0
+    swept = swept_together(stage.outcome for _, stage in done_)
+    return Opening(found, width, distance, is_flush, leads_on, swept)

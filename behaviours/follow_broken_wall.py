@@ -15,17 +15,22 @@
 | AL | done | FM |
 | AL | receded | EXO |
 | EXO | wide | MB_MIDDLE |
-| EXO | wide and flush | SPLIT_BESIDE |
+| EXO | wide before hall | MB_BETWEEN |
+| EXO | wide and flush | CORNER_OPEN |
 | EXO | slit | FM |
 | EXO | slit and flush | CORNER |
 | EXO | no far side | MB_EDGE |
 | MB_MIDDLE | done | SPLIT |
 | MB_BEFORE | done | SPLIT_AHEAD |
+| MB_BETWEEN | done | SPLIT_BETWEEN |
 | MB_EDGE | done | MF_PAST |
 | MF_PAST | done | EXT |
 | CORNER | along | SPLIT_BESIDE |
 | CORNER | across | SPLIT_ACROSS |
+| CORNER | both | SPLIT_BOTH |
 | CORNER | no hall | INT |
+| CORNER_OPEN | along | SPLIT_BESIDE |
+| CORNER_OPEN | both | SPLIT_BOTH |
 
 Purpose: as WF (`behaviours.follow_wall`), and place a SPLIT where a hall begins.
 Preconditions: the robot stands at a vertex that a wall leads on from, or beside
@@ -37,7 +42,8 @@ A SPLIT lies r0 from the wall, in the middle of the hall's opening. Where a hall
 begins at an inner corner ([K]_ 3.4, figure 3.3 a and b), the corner itself is the
 SPLIT: in the followed wall (SPLIT_BESIDE), in the wall ahead, when the robot came
 as far as the opening (SPLIT_AHEAD: it goes back r0) or stopped before it
-(SPLIT_ACROSS).
+(SPLIT_ACROSS). One hall may begin in each of the two: the robot came to the mouth of
+the one ahead (SPLIT_BETWEEN: it goes back r0), or stopped before it (SPLIT_BOTH).
 
 References
 ----------
@@ -98,21 +104,32 @@ class State(Enum):
     EXO = auto()
     MB_MIDDLE = auto()
     MB_BEFORE = auto()
+    MB_BETWEEN = auto()
     MB_EDGE = auto()
     MF_PAST = auto()
     """r0 past the edge where the wall ended."""
     CORNER = auto()
+    CORNER_OPEN = auto()
+    """As CORNER; a hall begins in the followed wall."""
     INT = auto()
     EXT = auto()
     SPLIT = auto()
     SPLIT_BESIDE = auto()
     SPLIT_AHEAD = auto()
     SPLIT_ACROSS = auto()
+    SPLIT_BETWEEN = auto()
+    SPLIT_BOTH = auto()
 
 
 def wide(opening: Opening) -> bool:
     """It is a hall's, and the wall goes on behind it."""
-    return opening.type is VertexType.SPLIT and not opening.is_flush
+    is_hall = opening.type is VertexType.SPLIT and not opening.is_flush
+    return is_hall and not opening.leads_on
+
+
+def wide_before_hall(opening: Opening) -> bool:
+    """It is a hall's, and behind it begins another, ahead."""
+    return opening.type is VertexType.SPLIT and opening.leads_on
 
 
 def wide_and_flush(opening: Opening) -> bool:
@@ -140,6 +157,11 @@ def across(found: Corner) -> bool:
     return found is Corner.ACROSS
 
 
+def both(found: Corner) -> bool:
+    """A hall begins in each of the two walls."""
+    return found is Corner.BOTH
+
+
 def no_hall(found: Corner) -> bool:
     """No hall begins at the corner."""
     return found is Corner.NONE
@@ -161,19 +183,25 @@ FOLLOW_BROKEN_WALL = Automaton((State.MF_BESIDE, State.AF_BESIDE, State.FM), (
     Row(State.AL,         done,           State.FM),
     Row(State.AL,         receded,        State.EXO),
     Row(State.EXO,        wide,           State.MB_MIDDLE),
-    Row(State.EXO,        wide_and_flush, State.SPLIT_BESIDE),
+    Row(State.EXO,        wide_before_hall, State.MB_BETWEEN),
+    Row(State.EXO,        wide_and_flush, State.CORNER_OPEN),
     Row(State.EXO,        slit,           State.FM),
     Row(State.EXO,        slit_and_flush, State.CORNER),
     Row(State.EXO,        no_far_side,    State.MB_EDGE),
     Row(State.MB_MIDDLE,  done,           State.SPLIT),
     Row(State.MB_BEFORE,  done,           State.SPLIT_AHEAD),
+    Row(State.MB_BETWEEN, done,           State.SPLIT_BETWEEN),
     Row(State.MB_EDGE,    done,           State.MF_PAST),
     Row(State.MF_PAST,    done,           State.EXT),
     Row(State.CORNER,     along,          State.SPLIT_BESIDE),
     Row(State.CORNER,     across,         State.SPLIT_ACROSS),
+    Row(State.CORNER,     both,           State.SPLIT_BOTH),
     Row(State.CORNER,     no_hall,        State.INT),
+    Row(State.CORNER_OPEN, along,         State.SPLIT_BESIDE),
+    Row(State.CORNER_OPEN, both,          State.SPLIT_BOTH),
 ), (State.INT, State.EXT, State.SPLIT,
-    State.SPLIT_BESIDE, State.SPLIT_AHEAD, State.SPLIT_ACROSS))
+    State.SPLIT_BESIDE, State.SPLIT_AHEAD, State.SPLIT_ACROSS,
+    State.SPLIT_BETWEEN, State.SPLIT_BOTH))
 # fmt: on
 
 START = {
@@ -192,8 +220,11 @@ ENDS: dict[State, tuple[VertexType, Ways]] = {
     State.SPLIT_BESIDE: (VertexType.SPLIT, (None, ON, BACK, Way.HALL)),
     State.SPLIT_AHEAD: (VertexType.SPLIT, (Way.HALL, ON, BACK, None)),
     State.SPLIT_ACROSS: (VertexType.SPLIT, (Way.HALL, ON, BACK, None)),
+    State.SPLIT_BETWEEN: (VertexType.SPLIT, (Way.HALL, ON, BACK, Way.HALL)),
+    State.SPLIT_BOTH: (VertexType.SPLIT, (Way.HALL, ON, BACK, Way.HALL)),
 }
-BACKWARD = (State.MB_MIDDLE, State.MB_BEFORE, State.MB_EDGE)
+BACKWARD = (State.MB_MIDDLE, State.MB_BEFORE, State.MB_BETWEEN, State.MB_EDGE)
+AT_CORNER = (State.CORNER, State.CORNER_OPEN)
 
 
 def follow_broken_wall(
@@ -218,9 +249,14 @@ def follow_broken_wall(
 
     Raises
     ------
+    ValueError
+        From the running coroutine, if no wall leads on from such a vertex.
     UnforeseenError
         From the running coroutine, if the body is stuck or bumps where it probes.
     """
+    start = START.get(place)
+    if start is None:
+        raise ValueError(f"place must be INT, EXT, SPLIT or None; got {place}")
     r0 = parameters.r0
 
     def open_up(_: Path[State]) -> Behaviour[Opening]:
@@ -235,6 +271,9 @@ def follow_broken_wall(
     def examine(_: Path[State]) -> Behaviour[Corner]:
         return examine_corner(parameters, side)
 
+    def examine_open(_: Path[State]) -> Behaviour[Corner]:
+        return examine_corner(parameters, side, is_open=True)
+
     actions: Actions[State] = {
         State.MF_BESIDE: Move(r0, keep=r0),
         State.AF_BESIDE: Approach(
@@ -245,23 +284,48 @@ def follow_broken_wall(
         State.EXO: open_up,
         State.MB_MIDDLE: to_the_middle,
         State.MB_BEFORE: Move(r0, Direction.BACKWARD),
+        State.MB_BETWEEN: Move(r0, Direction.BACKWARD),
         State.MB_EDGE: to_the_edge,
         State.MF_PAST: Move(r0),
         State.CORNER: examine,
+        State.CORNER_OPEN: examine_open,
     }
-    path = yield from perform(FOLLOW_BROKEN_WALL, actions, START[place])
+    path = yield from perform(FOLLOW_BROKEN_WALL, actions, start)
     *done_, (end, _) = path
     type_, ways = ENDS[end]
-    turned_away = end in (State.INT, State.SPLIT_ACROSS)
+    turned_away = done_[-1][0] in AT_CORNER
     outcomes = [result for _, result in done_ if isinstance(result, Outcome)]
+    widths = _widths(done_, side)
+    seen = (*(outcome.clearance for outcome in outcomes), *(w for _, w in widths))
     return Arrival(
         type_,
         ways if side is Side.RIGHT else mirrored(ways),
         length=sum(_way(state, result) for state, result in done_),
         shift=sum(outcome.shift for outcome in outcomes),
-        clearance=min((outcome.clearance for outcome in outcomes), default=math.inf),
+        clearance=min(seen, default=math.inf),
         facing=side.opposite.value if turned_away else 0,
+        widths=widths,
     )
+
+
+def _widths(path: Path[State], side: Side) -> tuple[tuple[float, float], ...]:
+    """Return what was seen on the side away from the wall, piece by piece."""
+    way = 0.0
+    found: list[tuple[float, float]] = []
+    for state, result in path:
+        after = way + _way(state, result)
+        if after < way:
+            # What it has gone back from is no part of the way.
+            beyond = [width for until, width in found if until >= after]
+            found = [(until, width) for until, width in found if until < after]
+            found += [(after, width) for width in beyond[:1]]
+        elif state not in AT_CORNER:
+            found += [
+                (way + seen.until, seen.left if side is Side.RIGHT else seen.right)
+                for seen in result.swept
+            ]
+        way = after
+    return tuple(found)
 
 
 def _back(distance: float) -> Move:
@@ -270,6 +334,6 @@ def _back(distance: float) -> Move:
 
 def _way(state: State, result: Any) -> float:
     """Return how far ahead one action has brought the robot."""
-    if state is State.CORNER:
+    if state in AT_CORNER:
         return 0.0
     return float(-result.distance if state in BACKWARD else result.distance)

@@ -47,7 +47,7 @@ References
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum, auto
 from functools import cache
@@ -55,7 +55,8 @@ from typing import TYPE_CHECKING
 
 from behaviours.automaton import Automaton, Row, perform
 from behaviours.conditions import blocked, bumped, done, narrowed, receded, stepped
-from behaviours.port import Align, Behaviour, Follow, Move, Outcome, Side, Turn
+from behaviours.port import Align, Behaviour, Follow, Move, Side, Turn
+from behaviours.sweeping import swept_together
 from behaviours.vertices import VertexType
 
 if TYPE_CHECKING:
@@ -157,24 +158,21 @@ def follow_wall(parameters: Parameters, corner: VertexType | None) -> Behaviour[
 
     Raises
     ------
+    ValueError
+        From the running coroutine, if the vertex is none of these.
     UnforeseenError
         From the running coroutine, if the body is stuck, or bumps while it aligns.
     """
-    path = yield from perform(FOLLOW_WALL, actions(parameters), START[corner])
+    start = START.get(corner)
+    if start is None:
+        raise ValueError(f"corner must be INT, EXT or None; got {corner}")
+    path = yield from perform(FOLLOW_WALL, actions(parameters), start)
     *done_, (end, _) = path
+    swept = swept_together(outcome for _, outcome in done_)
     return Leg(
         CORNER[end],
         length=sum(outcome.distance for _, outcome in done_),
         shift=sum(outcome.shift for _, outcome in done_),
         clearance=min((outcome.clearance for _, outcome in done_), default=math.inf),
-        widths=_widths(outcome for _, outcome in done_),
+        widths=tuple((seen.until, seen.left) for seen in swept),
     )
-
-
-def _widths(outcomes: Iterable[Outcome]) -> tuple[tuple[float, float], ...]:
-    """Return the pieces of a whole leg."""
-    way, found = 0.0, []
-    for outcome in outcomes:
-        found += [(way + piece.until, piece.left) for piece in outcome.swept]
-        way += outcome.distance
-    return tuple(found)

@@ -5,7 +5,7 @@
 | MF | wall on the left | AL_LEFT |
 | MF | wall on the right | AL_RIGHT |
 | MF | wall passed | MB |
-| MF | no wall | RET |
+| MF | no wall | AF_PAST |
 | AL_LEFT | done | RET |
 | AL_RIGHT | done | RET |
 | MB | done | AF |
@@ -14,6 +14,12 @@
 | MB_BESIDE | done | AL_BESIDE |
 | AL_BESIDE | done | MF_PAST |
 | MF_PAST | done | RET |
+| AF_PAST | no opening | MB_PAST |
+| AF_PAST | opening passed | MF_BESIDE |
+| MF_BESIDE | stopped | AL_BETWEEN |
+| AL_BETWEEN | done | MB_BETWEEN |
+| MB_BETWEEN | done | RET |
+| MB_PAST | done | RET |
 
 Purpose: come from a hall into open space, where WF can begin. Preconditions: the
 robot stands at a PORTAL and looks out. Postcondition: it stands at the SPLIT of
@@ -23,6 +29,10 @@ corner's other wall as well. Returns the `Arrival`.
 Where one of the hall's walls goes on for less than r0, it is already behind when the
 robot stands r0 past the opening. It then goes back and looks where that wall ends
 (AF): by more than r0 - r_min it is the wall of a corner, by less it is ill-defined.
+
+Where no wall is beside, another hall may open at the same corner, up to 2 r0 wide: the
+robot goes on until that opening would be passed (AF_PAST). If a wall begins there, it
+is the corner's.
 
 The source has no such component: it calls portals "special edges" ([K]_ 3.4).
 
@@ -76,6 +86,12 @@ class State(Enum):
     AL_BESIDE = auto()
     MF_PAST = auto()
     """Again r0 past the opening."""
+    AF_PAST = auto()
+    """Forward until another opening beside would be passed."""
+    MF_BESIDE = auto()
+    AL_BETWEEN = auto()
+    MB_BETWEEN = auto()
+    MB_PAST = auto()
     RET = auto()
 
 
@@ -120,13 +136,28 @@ def ill_defined(edge: tuple[float, bool]) -> bool:
     return not edge[1]
 
 
+def opening_passed(outcome: Outcome) -> bool:
+    """A wall begins beside the robot: that of a corner with another hall."""
+    return outcome.reason is Reason.SEEN
+
+
+def no_opening(outcome: Outcome) -> bool:
+    """No wall begins within the width of a hall, or before the wall ahead."""
+    return outcome.reason in (Reason.DONE, Reason.BLOCKED)
+
+
+def stopped(outcome: Outcome) -> bool:
+    """It is done, or a wall ahead is near."""
+    return outcome.reason in (Reason.DONE, Reason.BLOCKED)
+
+
 # fmt: off
 LEAVE_HALL = Automaton((State.MF,), (
     #   in               when               go to
     Row(State.MF,        wall_on_the_left,  State.AL_LEFT),
     Row(State.MF,        wall_on_the_right, State.AL_RIGHT),
     Row(State.MF,        wall_passed,       State.MB),
-    Row(State.MF,        no_wall,           State.RET),
+    Row(State.MF,        no_wall,           State.AF_PAST),
     Row(State.AL_LEFT,   done,              State.RET),
     Row(State.AL_RIGHT,  done,              State.RET),
     Row(State.MB,        done,              State.AF),
@@ -135,6 +166,12 @@ LEAVE_HALL = Automaton((State.MF,), (
     Row(State.MB_BESIDE, done,              State.AL_BESIDE),
     Row(State.AL_BESIDE, done,              State.MF_PAST),
     Row(State.MF_PAST,   done,              State.RET),
+    Row(State.AF_PAST,   no_opening,        State.MB_PAST),
+    Row(State.AF_PAST,   opening_passed,    State.MF_BESIDE),
+    Row(State.MF_BESIDE, stopped,           State.AL_BETWEEN),
+    Row(State.AL_BETWEEN, done,             State.MB_BETWEEN),
+    Row(State.MB_BETWEEN, done,             State.RET),
+    Row(State.MB_PAST,   done,              State.RET),
 ), (State.RET,))
 # fmt: on
 
@@ -174,6 +211,20 @@ def leave_hall(parameters: Parameters) -> Behaviour[Arrival]:
         outcome = yield Approach(sensors, near, limit=r0, until=Until.LOST)
         return outcome.distance, outcome.distance > parameters.least_jut
 
+    past = Approach(
+        (Sensor.LEFT, Sensor.RIGHT),
+        near,
+        keep=parameters.r_min,
+        limit=r0 * (1 + 2 * parameters.doubt),
+    )
+
+    def align_between(path: Path[State]) -> Align:
+        return Align(_nearer(path[1][1]))
+
+    def back_from_past(path: Path[State]) -> Move:
+        gone = sum(o.distance for state, o in path[1:] if state is not State.AL_BETWEEN)
+        return Move(gone, Direction.BACKWARD, by_odometry=True)
+
     def back_beside(path: Path[State]) -> Move:
         return Move(path[-1][1][0] / 2, Direction.BACKWARD, by_odometry=True)
 
@@ -193,10 +244,15 @@ def leave_hall(parameters: Parameters) -> Behaviour[Arrival]:
         State.MB_BESIDE: back_beside,
         State.AL_BESIDE: align,
         State.MF_PAST: onward,
+        State.AF_PAST: past,
+        State.MF_BESIDE: Move(parameters.r_min, keep=parameters.r_min),
+        State.AL_BETWEEN: align_between,
+        State.MB_BETWEEN: back_from_past,
+        State.MB_PAST: back_from_past,
     }
     path = yield from perform(LEAVE_HALL, actions, State.MF)
     beside: Beside = path[0][1]
-    results = dict(path)
+    results = dict(path[:-1])
     side = beside.wall
     if State.AF in results and not juts_out(results[State.AF]):
         side = None
@@ -207,7 +263,18 @@ def leave_hall(parameters: Parameters) -> Behaviour[Arrival]:
         Side.RIGHT: flush,
         Side.LEFT: mirrored(flush),
     }[side]
+    if State.AL_BETWEEN in results:
+        # Another hall begins in the corner's other wall.
+        between: Ways = (Way.WALL_RIGHT, Way.WALL_LEFT, Way.HALL, Way.HALL)
+        is_right = _nearer(results[State.AF_PAST]) is Side.RIGHT
+        ways = between if is_right else mirrored(between)
     return Arrival(VertexType.SPLIT, ways, beside.outcome.distance, shift)
+
+
+def _nearer(outcome: Outcome) -> Side:
+    """Return the side on which a wall is nearer."""
+    seen = outcome.readings
+    return Side.RIGHT if seen.right < seen.left else Side.LEFT
 
 
 def _beside(outcome: Outcome, near: float) -> Beside:

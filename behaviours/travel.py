@@ -79,15 +79,22 @@ def _is_hall_beside(ways: Ways, quarters: int, wall: Side) -> bool:
 
 def _into_hall(parameters: Parameters, ways: Ways, quarters: int) -> Behaviour[Arrival]:
     """Leave a SPLIT through a hall, to its mouth or to the hall's next vertex."""
-    *before, last = TURNS[quarters] or (None,)
-    for side in before:
-        yield Turn(side)
     in_open_space = not set(ways) <= {None, Way.HALL}
     _, left, _, right = turned(ways, quarters)
+    is_between = in_open_space and Way.HALL in (left, right)
+    if is_between:
+        # Look into the other hall first.
+        last: Side | None = Side.RIGHT if left is Way.HALL else Side.LEFT
+        other = quarters + 1 if left is Way.HALL else quarters - 1
+        before = list(TURNS[other % 4])
+    else:
+        *before, last = TURNS[quarters] or (None,)
+    for side in before:
+        yield Turn(side)
     wall = None
     if in_open_space and None in (left, right):
         wall = Side.LEFT if left is None else Side.RIGHT
-    ahead, aside = yield from enter(parameters, last, wall)
+    ahead, aside = yield from enter(parameters, last, wall, is_between=is_between)
     if in_open_space:
         # The hall's mouth is a vertex of its own.
         inside = (Way.HALL, None, Way.OUT, None)

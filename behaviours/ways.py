@@ -48,6 +48,9 @@ class Arrival:
     """Least range on the side away from the followed wall, in metres."""
     facing: int = 0
     """Quarter turns to the left that the robot has made since it arrived."""
+    widths: tuple[tuple[float, float], ...] = ()
+    """Pieces of the way along a wall: where each ends, and the least range on the side
+    away from it along the piece, in metres."""
 
 
 def turned(ways: Ways, quarters: int) -> Ways:

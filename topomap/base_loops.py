@@ -7,7 +7,7 @@ from collections import Counter
 from typing import TYPE_CHECKING
 
 from behaviours.follow_wall import Leg
-from behaviours.ways import Way
+from behaviours.ways import Way, turned
 from evidence.walls import Wall
 from topomap.boundary import Walk
 from topomap.explored import RefutedError
@@ -104,9 +104,7 @@ def _corner(place: Place) -> tuple[str, float]:
     onward = _onward(place)
     turn = (onward - place.ways.index(Way.WALL_LEFT) - 1) % 4 - 1
     halls = "".join(
-        str((quarters - onward) % 4)
-        for quarters, way in enumerate(place.ways)
-        if way is Way.HALL
+        str(k) for k, way in enumerate(turned(place.ways, onward)) if way is Way.HALL
     )
     return place.type.value + halls, turn * math.pi / 2
 
@@ -141,7 +139,7 @@ def _fold(
                 _join_walked(found, there, end[0], likeliest[len(arrivals) % period])
             else:
                 chart.add_link(end, there, "WF")
-        chart.links[end].measure(arrival)
+        chart.links[end].measure(arrival, end)
     found.here = numbers[len(arrivals) % period]
 
 

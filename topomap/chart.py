@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import count, pairwise
 from typing import TYPE_CHECKING
 
 import networkx as nx
 
 from behaviours.ways import Way
-from topomap.folding import FARTHEST
+from topomap.folding import profile
 from topomap.headings import angle_of
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 
@@ -44,12 +44,16 @@ class Link:
     lengths: list[float] = field(default_factory=list)
     shifts: list[float] = field(default_factory=list)
     clearance: float = math.inf
+    widths: tuple[tuple[float, float], ...] = ()
+    """Clearance profile of the last walk along a wall, from the first end on."""
 
-    def measure(self, arrival: Arrival) -> None:
-        """Add one measurement; the shift is the same from both ends."""
+    def measure(self, arrival: Arrival, source: tuple[int, int]) -> None:
+        """Add what was measured from one end; the shift is the same from both."""
         self.lengths.append(arrival.length)
         self.shifts.append(arrival.shift)
         self.clearance = min(self.clearance, arrival.clearance)
+        is_forward = source == self.ends[0]
+        self.widths = arrival.widths if is_forward else _reversed(arrival.widths)
 
     @property
     def length(self) -> float:
@@ -137,6 +141,9 @@ class Chart:
             there.lengths += link.lengths
             there.shifts += link.shifts
             there.clearance = min(there.clearance, link.clearance)
+            if not there.widths:
+                is_forward = there.ends[0] == first
+                there.widths = link.widths if is_forward else _reversed(link.widths)
         for vertex, other in pairs.items():
             del self.places[vertex]
             self.became[vertex] = other
@@ -203,8 +210,18 @@ class Chart:
             )
             for k in order
         )
-        edges = tuple(_edge(link, sigma) for link in self.each_link())
+        edges = tuple(
+            _edge(self._with_the_wall_on_the_right(link), sigma)
+            for link in self.each_link()
+        )
         return TopologicalMap(vertices, edges, parameters)
+
+    def _with_the_wall_on_the_right(self, link: Link) -> Link:
+        """Return a link as it is followed, if it is, with the wall on the right."""
+        source, target = link.ends
+        if self.places[source[0]].ways[source[1]] is not Way.WALL_LEFT:
+            return link
+        return replace(link, ends=(target, source), widths=_reversed(link.widths))
 
     def each_link(self) -> Iterator[Link]:
         """Yield every edge once."""
@@ -223,7 +240,7 @@ def behaviour_of(way: Way | None, way_back: Way | None) -> str:
 
 def _edge(link: Link, sigma: float) -> Edge:
     (source, source_exit), (target, target_exit) = link.ends
-    widths = ((link.length, min(link.clearance, FARTHEST)),)
+    widths = link.widths or ((link.length, link.clearance),)
     return Edge(
         source,
         target,
@@ -234,5 +251,18 @@ def _edge(link: Link, sigma: float) -> Edge:
         link.behaviour,
         sum(link.shifts) / len(link.shifts),
         link.clearance if math.isfinite(link.clearance) else None,
-        widths=widths if link.behaviour == "WF" and link.length > 0 else (),
+        widths=profile(widths, widths[-1][0], link.length)
+        if link.behaviour == "WF"
+        else (),
+    )
+
+
+def _reversed(
+    widths: tuple[tuple[float, float], ...],
+) -> tuple[tuple[float, float], ...]:
+    """Return a clearance profile as seen from the other end."""
+    ends = [0.0, *(until for until, _ in widths)]
+    return tuple(
+        (ends[-1] - start, width)
+        for start, (_, width) in reversed(list(zip(ends, widths, strict=False)))
     )

@@ -13,12 +13,14 @@ from topomap.headings import angle_of, quarter_of
 from topomap.topological_map import Edge, Length, TopologicalMap, Vertex
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     from behaviours.follow_wall import Leg
     from behaviours.parameters import Parameters
     from behaviours.vertices import VertexType
     from topomap.boundary import Walk
 
-__all__ = ["FARTHEST", "fold"]
+__all__ = ["FARTHEST", "fold", "profile"]
 
 FARTHEST = 0.8
 """What lies farther beside the robot is not kept, in metres: cheap infrared rangers
@@ -93,20 +95,22 @@ def _edge(
         lengths=tuple(Length(leg.length, sigma * mean) for leg in legs),
         shift=sum(leg.shift for leg in legs) / len(legs),
         clearance=clearance if math.isfinite(clearance) else None,
-        widths=_widths(legs[-1], mean),
+        widths=profile(legs[-1].widths, legs[-1].length, mean),
     )
 
 
-def _widths(leg: Leg, length: float) -> tuple[tuple[float, float], ...]:
+def profile(
+    widths: Iterable[tuple[float, float]], walked: float, length: float
+) -> tuple[tuple[float, float], ...]:
     """Return what was seen beside one walk of a wall, as of a wall of some length.
 
     Pieces as wide as the one before are one piece.
     """
-    if not leg.widths or leg.length <= 0:
+    if walked <= 0:
         return ()
-    scale = length / leg.length
+    scale = length / walked
     found: list[tuple[float, float]] = []
-    for until, width in leg.widths:
+    for until, width in widths:
         width = round(min(width, FARTHEST), 3)
         if found and found[-1][1] == width:
             found.pop()

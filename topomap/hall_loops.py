@@ -25,6 +25,9 @@ __all__ = ["Corner", "attach", "base_loops", "check_spacing", "draw_loop"]
 
 ROUNDING = 1e-6
 """Lengths that differ by less, in metres, are one length."""
+ROOM = 2.49
+"""A room in which a hall opens at an inner corner is wider there, in parts of r0. Found
+by experiment: up to 2.48, rooms were mapped wrong."""
 
 
 @dataclass(slots=True)
@@ -41,6 +44,8 @@ class Corner:
     """Of the hall, where that is in a straight wall."""
     is_kept: bool = True
     """Whether it is a vertex; else it is ill-defined."""
+    least_width: float = math.inf
+    """Of the halls that begin at a corner, in metres."""
     number: int = -1
     """Of the vertex, once it is drawn."""
 
@@ -137,7 +142,7 @@ def attach(mouth: Mouth, loops: list[list[Corner]], parameters: Parameters) -> C
     Raises
     ------
     WorldError
-        If the opening is at no such place, or another hall opens at the corner.
+        If the opening is at no such place.
     """
     r0 = parameters.r0
     heading = (mouth.out - 1) % 4
@@ -159,12 +164,9 @@ def attach(mouth: Mouth, loops: list[list[Corner]], parameters: Parameters) -> C
                     continue
                 if not corner.is_inner:
                     continue
-                if corner.halls:
-                    raise WorldError(
-                        mouth.name, "another hall opens at the same inner corner"
-                    )
                 if corner.is_kept:
                     corner.halls.append((mouth.out + 2) % 4)
+                    corner.least_width = min(corner.least_width, mouth.width)
                     return corner
                 # The wall steps: towards the robot where the opening ends, or away
                 # from it where it begins.
@@ -201,6 +203,7 @@ def check_spacing(loop: list[Corner], parameters: Parameters) -> None:
         Names the opening, how much room is left, and how much must be.
     """
     _check_narrow(loop, parameters)
+    _check_both(loop, parameters)
     kept = [corner for corner in loop if corner.is_kept]
     for one, other in zip(kept, [*kept[1:], *kept[:1]], strict=True):
         for split, beside in ((one, other), (other, one)):
@@ -213,21 +216,35 @@ def check_spacing(loop: list[Corner], parameters: Parameters) -> None:
 def _check_narrow(loop: list[Corner], parameters: Parameters) -> None:
     """Check that no hall opens at an inner corner of a room hardly wider than 2 r0.
 
-    Whether a wall there belongs to the corner or to the hall across the room is told by
-    less than what makes a corner.
+    The wall opposite would be taken for a hall's, or for the far side of its opening.
     """
+    least = ROOM * parameters.r0
     ring = [corner for corner in loop if corner.opening is None]
     for one, other in zip(ring, [*ring[1:], *ring[:1]], strict=True):
-        way = math.dist((one.x, one.y), (other.x, other.y))
-        is_narrow = one.is_inner and other.is_inner and way <= parameters.least_jut
+        width = math.dist((one.x, one.y), (other.x, other.y)) + 2 * parameters.r0
+        is_narrow = one.is_inner and other.is_inner and width < least
         for corner in (one, other):
             if corner.halls and is_narrow:
-                least = 2 * parameters.r0 + parameters.least_jut
                 raise WorldError(
                     f"opening at the inner corner ({corner.x:.4g}, {corner.y:.4g})",
-                    f"the room is {2 * parameters.r0 + way:.4g} m wide there; expected "
-                    f"more than {least:.4g} m, 3 r0 - r_min",
+                    f"the room is {width:.4g} m wide there; expected {least:.4g} m, "
+                    f"{ROOM:g} r0, or more",
                 )
+
+
+def _check_both(loop: list[Corner], parameters: Parameters) -> None:
+    """Check that two halls at one corner are wider than r0.
+
+    Else the wall beside the one is there for a robot that stands r0 out of the other.
+    """
+    least = parameters.r0 * (1 + parameters.doubt)
+    for corner in loop:
+        if len(corner.halls) > 1 and corner.least_width <= least:
+            raise WorldError(
+                f"opening at the inner corner ({corner.x:.4g}, {corner.y:.4g})",
+                f"{corner.least_width:.4g} m wide, beside another hall at the same "
+                f"corner; expected more than {least:.4g} m, r0 and the robot's doubt",
+            )
 
 
 def _check_clear(opening: Mouth, way: float, beside: Corner, r0: float) -> None:

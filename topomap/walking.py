@@ -56,7 +56,7 @@ def go(found: Exploration, quarters: int) -> Behaviour[None]:
         )
         found.begin_anew(place)
         raise RefutedError(found.refuted[-1])
-    link.measure(arrival)
+    link.measure(arrival, (source, quarters))
     found.here = there
 
 
@@ -74,6 +74,7 @@ def step_out(found: Exploration, quarters: int) -> Behaviour[int]:
     back = (quarters + 2) % 4
     there = chart.add_place(place)
     behaviour = behaviour_of(way, place.ways[back])
-    chart.add_link((source, quarters), (there, back), behaviour).measure(arrival)
+    link = chart.add_link((source, quarters), (there, back), behaviour)
+    link.measure(arrival, (source, quarters))
     found.here = there
     return there

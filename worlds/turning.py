@@ -25,6 +25,8 @@ DOUBTS = 6.0
 """A wall that lies askew by more standard deviations of the heading is another one."""
 ASKEW = 0.1
 """How much more it may lie askew, in radians."""
+CREDIBLE = 0.2
+"""So far odometry may be wrong, as a part of the way."""
 CLOSE = 1 / 15
 """An offset nearer to r0 than this, in parts of r0, is left to following."""
 
@@ -77,8 +79,13 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
     it sweeps its front ranger over the wall: 1 / range = cos(angle - normal) / d,
     linear in the two unknowns. It then drives to r0, facing the wall or dead
     reckoned, and turns back: no way along the wall, no room needed but its own.
+
+    An `offset` is asked for where room is scarce, and no wall is followed that would
+    undo what two turns and a drive err by: there the wall ahead corrects the drive,
+    and the robot squares up with it before it turns back.
     """
     side, r0 = primitive.side, robot.parameters.r0
+    is_scarce = primitive.offset is not None
     offset = r0 if primitive.offset is None else primitive.offset
     yield from settle(robot)
     known = robot.lean_variance < SURE
@@ -98,10 +105,19 @@ def align(robot: Robot, primitive: Align) -> Control[Outcome]:
         reason = Reason.DONE
         start = robot.odometer
         yield from go(robot, beside - offset, keep=min(offset, robot.parameters.r_min))
+        if is_scarce:
+            yield from _correct(robot, side, offset, CREDIBLE * abs(beside - offset))
         advance = robot.odometer - start
     yield from quarter(robot, side.opposite)
     yield from settle(robot)
     return Outcome(0.0, reason, robot.readings(), shift=side.value * advance)
+
+
+def _correct(robot: Robot, side: Side, offset: float, credible: float) -> Control[None]:
+    """Stand squarely before the wall ahead, at an offset, if it is where it must be."""
+    error = (yield from _square_up(robot, side)) - offset
+    if abs(error) <= credible + CLOSE * robot.parameters.r0:
+        yield from go(robot, error)
 
 
 def _mean_side(robot: Robot, side: Side, looks: int = 4) -> Control[float]:

@@ -7,8 +7,11 @@ import pytest
 
 from behaviours.automaton import Automaton, Row, UnforeseenError, perform
 from behaviours.conditions import blocked, done, receded
+from behaviours.follow_broken_wall import follow_broken_wall
+from behaviours.follow_wall import follow_wall
 from behaviours.parameters import Parameters
 from behaviours.port import Move, Outcome, Readings, Reason
+from behaviours.vertices import VertexType
 
 
 class State(Enum):
@@ -129,3 +132,13 @@ def test_the_diagram_has_an_arrow_for_every_row_start_and_end(module):
     assert len(arrows) == len(table.rows) + len(table.starts) + len(table.ends)
     for row in table.rows:
         assert any(f"{row.here.name} --> {row.there.name}" in line for line in arrows)
+
+
+@pytest.mark.parametrize("place", [VertexType.PORTAL, VertexType.TERM, VertexType.ILL])
+def test_no_wall_is_followed_from_where_none_leads_on(place):
+    with pytest.raises(
+        ValueError, match=f"INT, EXT, SPLIT or None; got .*{place.name}"
+    ):
+        next(follow_broken_wall(Parameters(), place))
+    with pytest.raises(ValueError, match=f"INT, EXT or None; got .*{place.name}"):
+        next(follow_wall(Parameters(), place))

@@ -23,7 +23,7 @@ def hall(robot, length, origin, quarter=0):
     ways[quarter] = ways[(quarter + 2) % 4] = Way.HALL
     ends = [chart.add_place(Place(VertexType.INT, tuple(ways))) for _ in range(2)]
     link = chart.add_link((ends[0], quarter), (ends[1], (quarter + 2) % 4), "HF")
-    link.measure(Arrival(VertexType.INT, tuple(ways), length))
+    link.measure(Arrival(VertexType.INT, tuple(ways), length), link.ends[0])
     known = Knowledge(robot, chart)
     known.origins[robot] = origin
     return known

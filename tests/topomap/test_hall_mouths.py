@@ -89,6 +89,8 @@ def test_leaving_a_hall_tells_whether_it_opens_at_a_corner(off, sigma):
     is_corner = abs(off) > ROBOT.least_jut
     assert (None in (arrival.ways[1], arrival.ways[3])) is is_corner
     assert start.x - body.pose[0] == pytest.approx(ROBOT.r0, abs=0.1)
+    aside = start.y - body.pose[1]  # to the left, for who looks to the left
+    assert arrival.shift == pytest.approx(aside, abs=1e-9 if sigma == 0 else 0.03)
     if is_corner:
         wall = 1.5 if off > 0 else 2.0
         assert abs(body.pose[1] - wall) == pytest.approx(ROBOT.r0)

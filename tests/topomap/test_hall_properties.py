@@ -1,15 +1,19 @@
-"""Behaviours that promise to return to their start do, whatever the odometry."""
+"""What behaviours promise of the way back to their start, and maps of the room left."""
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import worlds
 from behaviours import Parameters
 from behaviours.examine_corner import State, examine_corner
 from behaviours.opposite import opposite
 from behaviours.port import Side, run
+from merge.rigid import RigidTransform
 from tests.topomap.test_explore import union
+from topomap import build_map
 from worlds.ideal import IdealBody
 from worlds.pose import Pose
 
@@ -40,3 +44,18 @@ def test_who_has_examined_a_corner_is_back(sigma, seed, r_w):
     body = IdealBody(room, start, robot, np.random.default_rng(seed), sigma)
     assert run(examine_corner(robot, Side.RIGHT), body) is State.NONE
     assert body.pose == pytest.approx((3.7, 0.3, np.pi / 2))
+
+
+@settings(max_examples=8, deadline=None)
+@given(kind=st.sampled_from(["rooms", "halls", "maze", "office"]), seed=SEEDS)
+def test_no_vertex_of_a_built_map_is_nearer_than_r_min_to_a_wall(kind, seed):
+    world = worlds.make(kind, np.random.default_rng(seed))
+    built = build_map(world, np.random.default_rng(seed), sigma=0.0)
+    found = built.comparison
+    assert found.correct
+    motion = RigidTransform(found.rotation, *found.offset)
+    places = motion(np.array([vertex.position for vertex in built.map.vertices]))
+    points = shapely.points(places)
+    assert shapely.contains(world.free_space, points).all()
+    walls = world.free_space.boundary
+    assert shapely.distance(points, walls).min() >= ROBOT.r_min - 1e-6

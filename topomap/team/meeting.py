@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 
 __all__ = ["Meeting", "Overlay", "chart_of", "meet"]
 
+FALSE_MERGE = 1e-4
+"""The greatest probability that an overlay is wrong, where a robot merges a stranger's
+map: two robots try it ten times and more while their maps grow, and one wrong merge
+spoils the maps of all."""
 LEAST = 4
 """A map of fewer vertices is not yet compared with a stranger's."""
 
@@ -76,7 +80,7 @@ def meet(
         return Meeting((), f"a map has fewer than {LEAST} vertices")
     mine = chart.as_map(parameters, sigma)
     other = theirs.as_map(parameters, sigma)
-    found = match(to_graph(mine), to_graph(other), Options())
+    found = match(to_graph(mine), to_graph(other), Options(false_merge=FALSE_MERGE))
     if not found.accepted or found.transform is None:
         return Meeting((), f"it does not surely fit: {found.reason}")
     numbers = [row.number for row in report.places]
