@@ -101,7 +101,7 @@ def test_a_growing_chart_and_its_map_have_the_same_exits():
     chart.add_place(Place(VertexType.INT, (Way.WALL_RIGHT, Way.WALL_LEFT, None, None)))
     chart.add_place(Place(VertexType.INT, (None, Way.WALL_RIGHT, Way.WALL_LEFT, None)))
     chart.add_link((0, 0), (1, 2), "WF").measure(
-        Arrival(VertexType.INT, (None,) * 4, 2.0)
+        Arrival(VertexType.INT, (None,) * 4, 2.0), (0, 0)
     )
     assert topological_frontiers(chart.as_map(PARAMETERS, 0.0)) == frontiers_of(chart)
 
