@@ -8,7 +8,7 @@ import shapely
 
 from tests.team.buildings import building
 from topomap.cli import main
-from topomap.errors import InputError
+from topomap.errors import InputError, JobError
 from topomap.files.map_files import load_map
 from topomap.files.world_files import save_world
 from topomap.page import recording_of_team
@@ -40,6 +40,22 @@ def test_it_writes_maps_pictures_and_history(world_file, tmp_path, capsys):
     assert all(event["reason"] for event in history)
 
 
+def test_a_common_frame_is_asked_for_by_option(
+    world_file, tmp_path, monkeypatch, capsys
+):
+    asked = []
+
+    def refuse(*_, frame, **__):
+        asked.append(frame)
+        raise JobError("not today")
+
+    monkeypatch.setattr("topomap.team.exploring.explore", refuse)
+    arguments = ["explore", str(world_file), "-o", str(tmp_path / "team")]
+    assert main([*arguments, "--frame", "common"]) == 3
+    assert main(arguments) == 3
+    assert asked == ["common", "own"]
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -48,6 +64,7 @@ def test_it_writes_maps_pictures_and_history(world_file, tmp_path, capsys):
         (["--loss", "1.5"], "loss: expected a probability from 0 to 1; got 1.5"),
         (["--allocator", "best"], "expected one of"),
         (["--target", "map"], "target: expected one of graph, grid; got 'map'"),
+        (["--frame", "world"], "frame: expected one of own, common; got 'world'"),
         (["--body", "tank"], "body: expected one of"),
     ],
 )

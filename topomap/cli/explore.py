@@ -30,6 +30,9 @@ def explore(
     target: Annotated[
         str, typer.Option(help="Distances on the graph, or on a grid laid under it.")
     ] = "graph",
+    frame: Annotated[
+        str, typer.Option(help="Each robot a frame of its own, or one common to all.")
+    ] = "own",
     reach: Annotated[
         float, typer.Option("--range", help="How far messages carry, in metres.")
     ] = math.inf,
@@ -72,6 +75,7 @@ def explore(
             sigma=sigma,
             allocator=allocator,
             target=target,
+            frame=frame,
             radio=radio,
             returns=returns,
         )

@@ -12,22 +12,21 @@ import shapely
 from shapely.affinity import translate
 
 from topomap.folding import FARTHEST
-from topomap.incursions.candidates import Options, candidates, edge_of
+from topomap.incursions.candidates import Options, edge_of
 from topomap.incursions.known_space import free_space, known_space, swept_along
 from topomap.incursions.linking import links_wanted, ways_home
-from topomap.incursions.passive import is_swept, with_passive
+from topomap.incursions.passive import with_passive
 from topomap.incursions.targets import (
     SIGHT,
     may_return,
+    proofs_wanted,
     search_targets,
-    worth_proving,
 )
 from topomap.incursions.tour import plan_tour
 from topomap.routes.costs import all_distances
 from topomap.topological_map import Edge
 
 if TYPE_CHECKING:
-    from topomap.incursions.candidates import Candidate
     from topomap.incursions.layout import Layout
     from topomap.routes.journey import Journey, Outcome
 
@@ -126,14 +125,7 @@ def agenda_of(
     distances = all_distances(journey.chart)
     here = layout.index[journey.vertex]
     ids = [vertex.id for vertex in layout.chart.vertices]
-
-    def is_new(c: Candidate) -> bool:
-        return (ids[c.source], round(math.degrees(c.direction))) not in tried
-
-    found = [c for c in candidates(layout, distances, options) if is_new(c)]
-    proven = is_swept(found, layout, space, options)
-    open_ = [c for c, ok in zip(found, proven, strict=True) if not ok]
-    chosen = worth_proving(open_, distances, options)
+    chosen = proofs_wanted(layout, space, distances, options, tried)
     purposes = dict.fromkeys(chosen, Purpose.PROOF)
     home = ways_home(layout, here, distances, options)
     purposes |= dict.fromkeys(home, Purpose.HOME)

@@ -7,7 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from topomap.incursions.candidates import Candidate, Options, landing_limits
+from topomap.incursions.candidates import (
+    Candidate,
+    Options,
+    candidates,
+    landing_limits,
+)
+from topomap.incursions.passive import is_swept
 from topomap.incursions.search import Ray, hidden_space, rays_through, spots_of
 
 if TYPE_CHECKING:
@@ -18,7 +24,7 @@ if TYPE_CHECKING:
 
     from topomap.incursions.layout import Layout
 
-__all__ = ["may_return", "savings", "search_targets", "worth_proving"]
+__all__ = ["may_return", "proofs_wanted", "savings", "search_targets", "worth_proving"]
 
 SIGHT = 0.9
 """Part of the sensors' range to the side within which a spot counts as swept."""
@@ -90,6 +96,44 @@ def worth_proving(
             chosen.append(c)
             np.minimum(known, through, out=known)
     return chosen
+
+
+def proofs_wanted(
+    layout: Layout,
+    space: shapely.Geometry,
+    distances: NDArray[np.float64],
+    options: Options,
+    tried: set[tuple[int, int]],
+) -> list[Candidate]:
+    """Return the incursions that are worth proving and not known to be free.
+
+    Parameters
+    ----------
+    layout : Layout
+        Of the map.
+    space : shapely.Geometry
+        Known space.
+    distances : ndarray, shape (V, V)
+        Ways known, in metres.
+    options : Options
+        How sure and how useful they must be.
+    tried : set of (vertex id, degrees)
+        Ways that were driven before.
+
+    Returns
+    -------
+    list of Candidate
+        As from `worth_proving`.
+    """
+    ids = [vertex.id for vertex in layout.chart.vertices]
+    found = [
+        c
+        for c in candidates(layout, distances, options)
+        if (ids[c.source], round(math.degrees(c.direction))) not in tried
+    ]
+    proven = is_swept(found, layout, space, options)
+    unsure = [c for c, ok in zip(found, proven, strict=True) if not ok]
+    return worth_proving(unsure, distances, options)
 
 
 def may_return(layout: Layout, candidate: Candidate, options: Options) -> bool:

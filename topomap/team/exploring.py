@@ -17,6 +17,7 @@ from topomap.team.agent import MOST, Agent
 from topomap.team.channel import Channel, Radio
 from topomap.team.collecting import merge_all, robot_run
 from topomap.team.faults import Fault
+from topomap.team.frontiers import check_target
 from topomap.team.grid_adapter import grid_lengths
 from topomap.team.placing import place
 from topomap.team.result import TeamRun
@@ -35,11 +36,9 @@ if TYPE_CHECKING:
     from worlds.pose import Pose
     from worlds.world import World
 
-__all__ = ["TARGETS", "explore"]
+__all__ = ["explore"]
 
 FRAMES = ("own", "common")
-TARGETS = ("graph", "grid")
-"""Whether distances are those of the map's edges, or of a grid laid under them."""
 LIMIT = 1e5
 """Seconds after which a run is given up."""
 
@@ -188,8 +187,7 @@ def _check(
         raise InputError("", "robots", robots, f"from 1 to {MOST}")
     if not (math.isfinite(sigma) and 0 <= sigma <= MAX_SIGMA):
         raise InputError("", "sigma", sigma, f"a part between 0 and {MAX_SIGMA}")
-    if target not in TARGETS:
-        raise InputError("", "target", target, f"one of {', '.join(TARGETS)}")
+    check_target(target)
     if starts is not None and len(starts) != robots:
         raise InputError("", "starts", len(starts), f"one a robot, {robots}")
     if not limit > 0:

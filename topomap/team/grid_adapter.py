@@ -20,6 +20,8 @@ from topomap.errors import InputError
 from topomap.exploration.steps import EXACT, Steps
 from topomap.exploration.waves import cost_matrix
 from topomap.files.atomic import write_atomically
+from topomap.team.frontiers import check_robots
+from topomap.team.grid_filling import fill_way, landing_of
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -30,7 +32,14 @@ if TYPE_CHECKING:
     from topomap.team.frontiers import TopologicalFrontier
     from topomap.topological_map import TopologicalMap
 
-__all__ = ["MapGrid", "grid_costs", "grid_lengths", "lay_on_grid", "save_map_server"]
+__all__ = [
+    "MapGrid",
+    "frontier_costs",
+    "grid_costs",
+    "grid_lengths",
+    "lay_on_grid",
+    "save_map_server",
+]
 
 UNKNOWN, FREE = 205, 254
 """Shades of `map_server` pictures."""
@@ -121,9 +130,17 @@ def lay_on_grid(
     }
     for cell in cells.values():
         free[cell] = True
+    places = dict(zip(cells, at, strict=True))
     for edge in chart.edges:
         reach = max(wide[edge.source], wide[edge.target]) / resolution
-        _fill(free, cells[edge.source], cells[edge.target], reach)
+        ends = cells[edge.source], cells[edge.target]
+        between = ends[1]
+        if edge.reach is not None:
+            landing = landing_of(edge, places[edge.source])
+            column, row = np.floor((landing - low_corner) / resolution + 1e-9)
+            between = int(row), int(column)
+        fill_way(free, ends[0], between, reach)
+        fill_way(free, between, ends[1], reach)
     return MapGrid(
         free, resolution, (float(low_corner[0]), float(low_corner[1])), cells
     )
@@ -148,6 +165,43 @@ def grid_costs(
     return np.asarray(table, dtype=float) * grid.resolution
 
 
+def frontier_costs(
+    chart: TopologicalMap,
+    robots: Sequence[int],
+    frontiers: Sequence[TopologicalFrontier],
+    resolution: float = 0.1,
+) -> NDArray[np.float64]:
+    """Return the ways from robots to a map's frontiers on a grid laid under it.
+
+    Parameters
+    ----------
+    chart : TopologicalMap
+        With its incursions, which lead both ways on a grid.
+    robots : sequence of int
+        The vertex of each robot.
+    frontiers : sequence of TopologicalFrontier
+        Exits or incursions, as from `topomap.team.map_frontiers`.
+    resolution : float
+        Side of a cell, in metres.
+
+    Returns
+    -------
+    ndarray, shape (robots, frontiers)
+        In metres; column j is frontier j, so that what a grid's allocator answers is
+        a frontier, and its vertex a node of the map.
+
+    Raises
+    ------
+    InputError
+        If a robot's vertex is not in the map, or the resolution is out of range.
+    """
+    check_robots(chart, robots)
+    grid = lay_on_grid(chart, resolution)
+    if not frontiers:
+        return np.empty((len(robots), 0))
+    return grid_costs(grid, robots, [frontier.vertex for frontier in frontiers])
+
+
 def grid_lengths(
     parameters: Parameters, sigma: float, resolution: float = 0.1
 ) -> Costs:
@@ -156,8 +210,8 @@ def grid_lengths(
     def costs(
         chart: Chart, robots: list[int], frontiers: list[TopologicalFrontier]
     ) -> NDArray[np.float64]:
-        grid = lay_on_grid(embedded(chart.as_map(parameters, sigma)), resolution)
-        return grid_costs(grid, robots, [frontier.vertex for frontier in frontiers])
+        known = chart.as_map(parameters, sigma)
+        return frontier_costs(known, robots, frontiers, resolution)
 
     return costs
 
@@ -187,21 +241,3 @@ def save_map_server(grid: MapGrid, path: str | Path) -> None:
         f"origin: [{x:.6f}, {y:.6f}, 0.0]\nnegate: 0\n"
         "occupied_thresh: 0.65\nfree_thresh: 0.196\n",
     )
-
-
-def _fill(
-    free: NDArray[np.bool_], a: tuple[int, int], b: tuple[int, int], reach: float
-) -> None:
-    """Free the cells of a straight way, and those within reach of it."""
-    count = max(abs(a[0] - b[0]), abs(a[1] - b[1])) + 1
-    rows = np.rint(np.linspace(a[0], b[0], count)).astype(int)
-    columns = np.rint(np.linspace(a[1], b[1], count)).astype(int)
-    reach += 1e-9  # a radius of three cells holds the third
-    far = int(np.floor(reach))
-    for i in range(-far, far + 1):
-        for j in range(-far, far + 1):
-            if i * i + j * j <= reach * reach:
-                free[
-                    np.clip(rows + i, 0, free.shape[0] - 1),
-                    np.clip(columns + j, 0, free.shape[1] - 1),
-                ] = True
