@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import shapely
-
 from topomap.hall_cells import hall_parts
 from topomap.hall_drawing import Drawing, draw_halls
 from topomap.hall_loops import attach, base_loops, check_spacing, draw_loop
 from topomap.hall_steps import check_steps
+from topomap.hall_widths import check_widths, moved
 from worlds.errors import WorldError
 
 if TYPE_CHECKING:
@@ -25,8 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ["true_hall_maps"]
 
-GRID = 1e-8
-"""Coordinates that agree to this, in metres, are equal."""
 STRICTLY = 1e-7
 """Open space is wider than 2 r0 by more, in metres."""
 
@@ -82,10 +79,11 @@ def true_hall_maps(world: World, parameters: Parameters) -> tuple[TopologicalMap
     """
     if not world.is_rectilinear:
         raise WorldError("world", "expected walls along x and y only")
+    check_widths(world.free_space, parameters)
     r0 = parameters.r0
-    free = _moved(_moved(world.free_space, -parameters.r_w), parameters.r_w)
-    eroded = _moved(world.free_space, -r0 - STRICTLY)
-    parts = hall_parts(free, _moved(eroded, r0 + STRICTLY), 2 * r0, r0 - parameters.r_w)
+    free = moved(moved(world.free_space, -parameters.r_w), parameters.r_w)
+    eroded = moved(world.free_space, -r0 - STRICTLY)
+    parts = hall_parts(free, moved(eroded, r0 + STRICTLY), 2 * r0, r0 - parameters.r_w)
     check_steps(parts, parameters.r_min)
     drawing = Drawing(parameters)
     mouths = draw_halls(drawing, parts, free)
@@ -97,10 +95,3 @@ def true_hall_maps(world: World, parameters: Parameters) -> tuple[TopologicalMap
     for mouth, corner in zip(mouths, corners, strict=True):
         drawing.link(mouth.portal, corner.number, mouth.out, "ENTER")
     return drawing.maps()
-
-
-def _moved(area: shapely.Geometry, way: float) -> shapely.Geometry:
-    """Return an area grown, or eroded, by a square of half-width `way`."""
-    moved = area.buffer(way, join_style="mitre", mitre_limit=10)
-    # Walls that sums of decimals put on either side of one line are one wall.
-    return shapely.set_precision(moved, GRID)

@@ -78,3 +78,37 @@ def test_a_corner_with_a_hall_needs_room_on_both_sides(width, is_refused):
             true_maps(world, ROBOT)
     else:
         assert len(true_maps(world, ROBOT)) == 1
+
+
+def two_rooms_and(*boxes):
+    """Return two rooms, a hall between them, and more."""
+    return union((0, 0, 3, 4), (2.9, 1.5, 6, 2.0), (6, 0, 9, 4), *boxes)
+
+
+@pytest.mark.parametrize(
+    ("boxes", "at", "width"),
+    [
+        # A corridor that is open space, by 5 cm; a recess; a slit; a whole room.
+        (((-2, 0, 0.1, 0.65), (-4, 0, -2, 3)), r"\(-1, 0\.325\)", "0.65"),
+        (((1, -0.5, 1.62, 0.1),), r"\(1\.31, -0\.25\)", "0.62"),
+        (((1, -2, 1.37, 0.1), (0, -4, 3, -2)), r"\(1\.185, -1\)", "0.37"),
+        (((-2, 0.5, 0.1, 1.0), (-2.64, 0.4, -2, 1.04)), r"\(-2\.32, 0\.72\)", "0.64"),
+    ],
+)
+def test_what_odometry_cannot_tell_from_a_hall_is_refused(boxes, at, width):
+    with pytest.raises(
+        WorldError,
+        match=rf"^passage at {at}: {width} m wide, which odometry cannot tell from a "
+        r"hall; expected at most 0\.352, 0\.4 to 0\.6, or more than 0\.672",
+    ):
+        true_maps(two_rooms_and(*boxes), ROBOT)
+
+
+def test_a_recess_whose_wall_stays_in_sight_may_be_of_any_width():
+    world = two_rooms_and((1, -0.14, 1.63, 0.1))
+    assert build_map(world, np.random.default_rng(1), sigma=0.0).correct
+
+
+def test_a_robot_that_knows_its_ways_better_may_live_in_any_world():
+    exact = Parameters(doubt=0.005)
+    assert len(true_maps(two_rooms_and((1, -0.5, 1.62, 0.1)), exact)) == 1
