@@ -173,17 +173,17 @@ def main(
     typer.echo(ratio_table(experiment, times, rival))
     if picture is not None:
         ratio_plot(experiment, times, rival, picture)
-    if "routes" in experiment.means:
+    some = [
+        times[cell]
+        for cell in times
+        if 2 <= int(experiment.cells[cell].get("robots", 0)) <= 10
+    ]
+    if some and "routes" in experiment.means:
         column = experiment.means.index("routes")
         published = [
             k
             for k in range(len(experiment.means))
             if k != column and experiment.means[k] not in KNOWING
-        ]
-        some = [
-            times[cell]
-            for cell in times
-            if 2 <= int(experiment.cells[cell].get("robots", 0)) <= 10
         ]
         ratio, low, high = average_ratio(some, column, published)
         typer.echo(
