@@ -175,6 +175,7 @@ class Agent:
         Under another name: what others have learned of its old map stays theirs.
         """
         self.note("begins anew", reason)
+        self.is_done = False
         found, known = self.found, self.known
         found.clear()
         known.robot += MOST
