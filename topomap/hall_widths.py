@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 import shapely
 
 from worlds.errors import WorldError
@@ -17,6 +18,9 @@ GRID = 1e-8
 """Coordinates that agree to this, in metres, are equal."""
 ROUNDING = 1e-6
 """Lengths that differ by less, in metres, are one length."""
+SLIVER = 0.005
+"""Half of what is too thin to be anything, in metres: shapely moves a wall whose pieces
+are off each other by up to a hundredth of the way as if they were one."""
 
 
 def check_widths(area: shapely.Geometry, parameters: Parameters) -> None:
@@ -45,17 +49,19 @@ def check_widths(area: shapely.Geometry, parameters: Parameters) -> None:
         sizes = least + ROUNDING, most - ROUNDING
         wide, wider = (moved(moved(area, -half), half) for half in sizes)
         for part in shapely.get_parts(wide.difference(wider.buffer(ROUNDING))):
-            if part.area > ROUNDING and not _is_shallow(part, area, parameters):
-                x, y = part.centroid.coords[0]
-                x0, y0, x1, y1 = part.bounds
-                within = [w for w in (x1 - x0, y1 - y0) if w < 2 * most + ROUNDING]
-                width = max(within, default=2 * most)
-                raise WorldError(
-                    f"passage at ({x:.4g}, {y:.4g})",
-                    f"{width:.4g} m wide, which odometry cannot tell from a hall; "
-                    f"expected at most {2 * r_w * (1 - doubt):.4g}, {2 * r_w:.4g} to "
-                    f"{2 * r0:.4g}, or more than {2 * r0 * (1 + doubt):.4g}",
-                )
+            is_sliver = part.area < SLIVER * part.length
+            if is_sliver or _is_shallow(part, area, parameters):
+                continue
+            x, y = part.centroid.coords[0]
+            x0, y0, x1, y1 = part.bounds
+            within = [w for w in (x1 - x0, y1 - y0) if w < 2 * most + ROUNDING]
+            width = max(within, default=2 * most)
+            raise WorldError(
+                f"passage at ({x:.4g}, {y:.4g})",
+                f"{width:.4g} m wide, which odometry cannot tell from a hall; "
+                f"expected at most {2 * r_w * (1 - doubt):.4g}, {2 * r_w:.4g} to "
+                f"{2 * r0:.4g}, or more than {2 * r0 * (1 + doubt):.4g}",
+            )
 
 
 def _is_shallow(
@@ -71,6 +77,8 @@ def _is_shallow(
 
 def moved(area: shapely.Geometry, way: float) -> shapely.Geometry:
     """Return an area grown, or eroded, by a square of half-width `way`."""
-    found = area.buffer(way, join_style="mitre", mitre_limit=10)
+    # GEOS may raise the flag of an invalid number where two corners meet in a point.
+    with np.errstate(invalid="ignore"):
+        found = area.buffer(way, join_style="mitre", mitre_limit=10)
     # Walls that sums of decimals put on either side of one line are one wall.
     return shapely.set_precision(found, GRID)

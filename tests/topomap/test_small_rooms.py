@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from behaviours import Parameters
@@ -10,6 +10,7 @@ from tests.topomap.test_explore import union
 from topomap import build_map
 from topomap.truth import true_maps
 from worlds.errors import WorldError
+from worlds.fit import is_open
 
 ROBOT = Parameters()
 
@@ -49,6 +50,7 @@ halls_at_corners = st.dictionaries(
     height=st.integers(605, 1000),
     halls=halls_at_corners,
 )
+@example(width=890, height=890, halls={0: (420, True, 0), 1: (420, True, 0)})
 @example(width=725, height=661, halls={1: (558, True, 0)})
 @example(width=900, height=800, halls={0: (500, True, 0), 2: (450, False, 0)})
 def test_a_small_room_is_mapped_or_refused(width, height, halls):
@@ -57,6 +59,8 @@ def test_a_small_room_is_mapped_or_refused(width, height, halls):
         span = width if way % 2 else height
         placed[way] = wide / 1000, (span - wide - off if is_far else off) / 1000
     world = small_room(width / 1000, height / 1000, placed)
+    # Steps of both walls that are ill-defined hide how narrow such a hall is.
+    assume(not is_open(world, ROBOT))
     try:
         true_maps(world, ROBOT)
     except WorldError:
