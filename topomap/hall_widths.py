@@ -49,7 +49,7 @@ def check_widths(area: shapely.Geometry, parameters: Parameters) -> None:
         sizes = least + ROUNDING, most - ROUNDING
         wide, wider = (moved(moved(area, -half), half) for half in sizes)
         for part in shapely.get_parts(wide.difference(wider.buffer(ROUNDING))):
-            is_sliver = part.area < SLIVER * part.length
+            is_sliver = part.area <= SLIVER * part.length
             if is_sliver or _is_shallow(part, area, parameters):
                 continue
             x, y = part.centroid.coords[0]
