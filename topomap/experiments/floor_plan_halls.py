@@ -39,6 +39,8 @@ PASSAGE = 0.85
 """What is narrower is closed, in metres of the plan."""
 DOUBT = 0.005
 """How exactly a robot whose lengths are exact tells 2 r0, as a part of it."""
+SURE = 2.0
+"""One whose lengths err by sigma tells it by so many sigmas, as by default at 6 %."""
 MAX_WALLS = 20_000
 SMALL = ("school-Franch1_updated", "school-Lamuniere1_updated")
 """Plans that the physical body maps as well."""
@@ -65,9 +67,7 @@ def map_whole_plan(cell: Cell, rng: np.random.Generator, trials: int) -> Tallies
     from topomap.bodies import body_parameters
 
     body, sigma = str(cell["body"]), float(cell["sigma"])
-    parameters = body_parameters(body)
-    if sigma == 0:
-        parameters = replace(parameters, doubt=DOUBT)
+    parameters = replace(body_parameters(body), doubt=max(DOUBT, SURE * sigma))
     try:
         world = _imported(str(cell["plan"]))
         truth = true_maps(world, parameters)
