@@ -4,12 +4,14 @@ import numpy as np
 
 from behaviours.parameters import Parameters
 from behaviours.port import run
+from merge import Options, match
 from tests.team.buildings import building
 from topomap.closers import make_closer
 from topomap.comparison import compare_maps
 from topomap.embedding import embedded
 from topomap.exploring import explore_halls
-from topomap.team.meeting import chart_of
+from topomap.merging import to_graph
+from topomap.team.meeting import FALSE_MERGE, chart_of
 from topomap.team.messages import decode, encode
 from topomap.team.sharing import Knowledge, lay_over, learn, report_of
 from topomap.truth import true_maps
@@ -115,3 +117,13 @@ def test_a_map_that_contradicts_is_refused_and_nothing_is_changed():
     assert not verdict.accepted
     assert verdict.reason == "it contradicts what is known"
     assert as_map(one) == before
+
+
+def test_a_strangers_map_is_merged_at_a_tenth_of_the_usual_doubt():
+    one, other = explored(0, 0, walls=8), explored(1, 50, walls=18)
+    found = match(to_graph(as_map(one)), to_graph(as_map(other)), Options())
+    assert found.accepted
+    assert found.false_merge_probability > FALSE_MERGE
+    verdict = learned(one, other)
+    assert not verdict.accepted
+    assert "it does not surely fit" in verdict.reason
