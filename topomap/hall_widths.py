@@ -77,8 +77,9 @@ def _is_shallow(
 
 def moved(area: shapely.Geometry, way: float) -> shapely.Geometry:
     """Return an area grown, or eroded, by a square of half-width `way`."""
-    # GEOS may raise the flag of an invalid number where two corners meet in a point.
-    with np.errstate(invalid="ignore"):
+    # GEOS may raise the processor's flags where two corners meet in a point; what it
+    # returns is right.
+    with np.errstate(invalid="ignore", divide="ignore"):
         found = area.buffer(way, join_style="mitre", mitre_limit=10)
     # Walls that sums of decimals put on either side of one line are one wall.
     return shapely.set_precision(found, GRID)

@@ -53,6 +53,7 @@ halls_at_corners = st.dictionaries(
 @example(width=890, height=890, halls={0: (420, True, 0), 1: (420, True, 0)})
 @example(width=725, height=661, halls={1: (558, True, 0)})
 @example(width=900, height=800, halls={0: (500, True, 0), 2: (450, False, 0)})
+@example(width=768, height=890, halls={1: (563, True, 0), 0: (420, True, 0)})
 def test_a_small_room_is_mapped_or_refused(width, height, halls):
     placed = {}
     for way, (wide, is_far, off) in halls.items():
