@@ -12,6 +12,7 @@ from worlds.controllers import controller_of, way_of
 from worlds.robot import Robot
 from worlds.straight import Control, go, stop
 from worlds.sweeping import pieces
+from worlds.turning import spin
 
 if TYPE_CHECKING:
     from behaviours.parameters import Parameters
@@ -130,9 +131,21 @@ class ControlledBody(ABC):
         way = -math.copysign(RECOIL * self.parameters.r0, robot.speed_asked)
         yield from stop(robot)
         yield from go(robot, way)
+        if robot.is_touching:  # it was touched from behind
+            yield from go(robot, -2 * way)
         robot.lean_variance += PUSHED**2
         is_stuck = robot.is_touching or self._bumps >= BUMPS
+        if robot.is_touching:
+            yield from self._wriggle()
         return self._outcome(Reason.STUCK if is_stuck else Reason.BUMPED)
+
+    def _wriggle(self) -> Control[None]:
+        """Turn away from what is touched on one side, and leave it."""
+        robot = self.robot
+        side = 1.0 if robot.eyes.right < robot.eyes.left else -1.0
+        robot.begin_spin()
+        yield from spin(robot, side * math.pi / 4)
+        yield from go(robot, 2 * RECOIL * self.parameters.r0)
 
     def _outcome(self, reason: Reason) -> Outcome:
         distance = max(self.robot.odometer - self._start, 0.0)

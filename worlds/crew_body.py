@@ -3,36 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from behaviours.port import Approach, Direction, Follow, Outcome, Primitive
-from worlds.detours import back_off, leave, part, sidestep
+from worlds.detours import part
 from worlds.lookout import Doing, Lookout, Signal
-from worlds.manners import LONGEST, Act, Self, is_abreast, lane_of, passed, verdict
+from worlds.manners import Act, Self, is_abreast, lane_of, passed, verdict
 from worlds.physical import PhysicalBody
-from worlds.straight import Control, stop
+from worlds.precedence import nearest, patience
+from worlds.yielding import Yielder, give_way, look_at_oneself, make_way, step_in
 
 if TYPE_CHECKING:
     import numpy as np
 
     from behaviours.parameters import Parameters
     from worlds.arena import Arena
-    from worlds.lookout import Mate
     from worlds.pose import Pose
     from worlds.profile import Profile
+    from worlds.straight import Control
 
 __all__ = ["CrewBody", "can_pass"]
 
 FIT = 2.5
 """Least half width of a hall in which two pass, in parts of a body's radius."""
-STEP = 0.5
-"""How far a robot goes off to make room, in parts of the distance that it keeps."""
-AWAY = 20.0
-"""Longest, in seconds, that it stays off."""
-HEEDLESS = 10.0
-"""Seconds for which a robot that has waited too long goes on unseeing."""
 
 
 def can_pass(radius: float, r_w: float) -> bool:
@@ -90,7 +83,6 @@ class CrewBody(PhysicalBody):
         parameters: Parameters | None = None,
     ) -> None:
         super().__init__(arena, start, profile, rng, sigma, parameters)
-        r_w = self.parameters.r_w
         robot = self._simulated
         self.signal = Signal()
         """What its beacon says."""
@@ -99,14 +91,24 @@ class CrewBody(PhysicalBody):
         self._eyes = robot.eyes
         robot.screen(self._screen)
         self._number = robot.disc.row
-        self._lane = lane_of(profile.radius, r_w)
         self._distance = 1.1 * max(
             math.hypot(r.x, r.y) + r.far for r in profile.rangers
         )
+        self._yielder = Yielder(
+            number=self._number,
+            robot=self.robot,
+            lookout=self.lookout,
+            signal=self.signal,
+            lane=lane_of(profile.radius, self.parameters.r_w),
+            distance=self._distance,
+            now=lambda: self.clock,
+        )
+        self.detours = 0
+        """How often it has given way so far."""
         self._detour: Control[None] | None = None
         self._axis = 0.0
-        self._heedless_until = 0.0
         self._held: Outcome | None = None
+        self._held_at = 0.0
 
     def beset(self) -> float | None:
         """Return the bearing of one that waits for this robot to go, in radians."""
@@ -130,6 +132,7 @@ class CrewBody(PhysicalBody):
     def begin(self, primitive: Primitive) -> None:
         """Take up a primitive, to be carried out by `step` or by `poll`."""
         super().begin(primitive)
+        self._yielder.begun = self._start
         follows = isinstance(primitive, Follow) or (
             isinstance(primitive, Approach)
             and primitive.direction is Direction.FORWARD
@@ -142,18 +145,19 @@ class CrewBody(PhysicalBody):
 
         As `ControlledBody.poll`, which does not go on while the robot gives way.
         """
-        if self._detour is None and self.robot.is_fresh:
+        if self._detour is None and (self.robot.is_fresh or self._touches()):
             self._start_detour()
         if self._detour is not None:
             try:
                 next(self._detour)
             except StopIteration:
                 self._detour = None
+                self._held_at = self.clock
             else:
                 return None
         outcome, self._held = self._held, None
         if outcome is None:
-            outcome = super().poll()
+            outcome, self._held_at = super().poll(), self.clock
         if outcome is not None and self._eyes.aside:
             self._held = outcome
             self.signal.doing = Doing.BUSY
@@ -175,36 +179,23 @@ class CrewBody(PhysicalBody):
         signal.bearings = {m.number: m.bearing + turned for m in lookout.mates}
         return found
 
-    def _me(self) -> Self:
-        robot = self.robot
-        looks = robot.is_still or abs(robot.speed_asked) > 1e-3
-        return Self(
-            number=self._number,
-            doing=self.signal.doing,
-            way=math.copysign(1.0, robot.speed_asked) if robot.speed_asked else 0.0,
-            is_aside=self._eyes.aside != 0.0,
-            is_blind=self.lookout.is_blind
-            and looks
-            and self.clock >= self._heedless_until,
-            waited=0.0,
-            radius=self.robot.profile.radius,
-            distance=self._distance,
-        )
-
     def _start_detour(self) -> None:
         """Give way if there is reason to."""
         mates = self.lookout.mates
         if not (mates or self._eyes.aside):
             return
-        me = self._me()
+        me = look_at_oneself(self._yielder)
         if self._touches():
             self._take(part(self.robot, self.lookout))
         elif self._eyes.aside and self._may_step_in(me):
-            self._take(self._step_in())
+            self._take(step_in(self._yielder))
+        elif self._held is not None and self._is_stalemate(me):
+            self._take(make_way(self._yielder))
         elif self._held is None and verdict(me, mates).act is not Act.GO:
-            self._take(self._give_way(me))
+            self._take(give_way(self._yielder, me))
 
     def _take(self, detour: Control[None]) -> None:
+        self.detours += 1
         self._axis = self.robot.turned
         self._detour = detour
 
@@ -220,66 +211,7 @@ class CrewBody(PhysicalBody):
         mates = self.lookout.mates
         return not is_abreast(me, mates) if self._held else passed(me, mates)
 
-    def _step_in(self) -> Control[None]:
-        """Go back to the middle."""
-        robot = self.robot
-        yield from stop(robot)
-        memory, seen = robot.memory(), self.lookout.seen
-        yield from sidestep(robot, self.lookout, -self._eyes.aside)
-        self._eyes.step_aside(-self._eyes.aside)
-        robot.remember(memory)
-        self.lookout.recall(seen, robot.turned)
-
-    def _give_way(self, me: Self) -> Control[None]:
-        """Wait, or make room, until the way is free; then all is as it was."""
-        robot, lookout, signal = self.robot, self.lookout, self.signal
-        yield from stop(robot)
-        memory, seen = robot.memory(), lookout.seen
-        since = self.clock
-        while True:
-            waited = self.clock - since
-            me = replace(
-                me,
-                waited=waited,
-                is_aside=self._eyes.aside != 0.0,
-                is_blind=lookout.is_blind,
-            )
-            found = verdict(me, lookout.mates)
-            signal.waits_for = found.mate.number if found.mate else None
-            signal.is_blind = lookout.is_blind
-            if found.act is Act.GO:
-                break
-            if found.act is Act.WAIT or found.mate is None:
-                yield
-                continue
-            yield from self._make_room(found.act, found.mate)
-            robot.remember(memory)
-            lookout.recall(seen, robot.turned)
-            since = self.clock
-        if waited >= LONGEST:
-            self._heedless_until = self.clock + HEEDLESS
-        robot.remember(memory)
-        signal.waits_for, signal.is_blind = None, False
-
-    def _make_room(self, act: Act, mate: Mate) -> Control[None]:
-        """Go where the other can pass."""
-        robot, lookout = self.robot, self.lookout
-        far = STEP * self._distance
-        behind = min(far, robot.odometer - self._start)
-        until = self._gone(self.clock + AWAY)
-        if act is Act.ASIDE:
-            yield from sidestep(robot, lookout, -self._lane)
-        elif act is Act.BACK and behind > far / 4:
-            yield from back_off(robot, lookout, behind, until)
-        else:
-            yield from leave(robot, lookout, mate.bearing, far, until)
-
-    def _gone(self, latest: float) -> Callable[[], bool]:
-        """Return what tells whether nobody is near, or it has got too late."""
-
-        def gone() -> bool:
-            near = 1.2 * self._distance
-            is_free = all(mate.distance > near for mate in self.lookout.mates)
-            return is_free or self.clock > latest
-
-        return gone
+    def _is_stalemate(self, me: Self) -> bool:
+        """Return whether it has waited long enough for somebody abreast."""
+        mate = nearest(self.lookout.mates)
+        return self.clock - self._held_at > patience(me.number, mate)

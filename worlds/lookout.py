@@ -30,6 +30,9 @@ KEPT_TURN = 0.1
 ..."""
 KEPT_WAY = 0.3
 """... and so short a way, in metres; ahead after any way: the mate is nearer still."""
+BEYOND = 0.1
+"""A mate that is seen so much farther away than a wall was, in metres, stands where the
+wall has ended."""
 AHEAD = 0.7
 """Cosine of the yaw up to which a ranger looks ahead."""
 
@@ -43,6 +46,8 @@ class Doing(Enum):
     """It looks around at a vertex, where it must not be disturbed."""
     FOLLOWS = "follows"
     """It drives along a wall or a hall."""
+    AWAY = "away"
+    """It stands off, where it has made room, until it may come again."""
 
 
 @dataclass(slots=True)
@@ -54,6 +59,10 @@ class Signal:
     """Whether a mate hides from it what it has to see."""
     waits_for: int | None = None
     """The robot that it waits for."""
+    yields_to: int | None = None
+    """The robot for which it makes room."""
+    presses: int | None = None
+    """The robot that is in its way as it makes room."""
     bearings: dict[int, float] = field(default_factory=dict)
     """Where it sees the others, against its way, in radians."""
 
@@ -162,12 +171,17 @@ class Lookout:
                 found.append(answer)
                 continue
             last, place, heading = kept[k]
-            now.append(kept[k])
             way = odometer - place
             ahead = math.cos(self._beams[k][2])
             is_near = abs(way) < KEPT_WAY or ahead > AHEAD
+            expected = max(last - ahead * way, 0.0)
+            if answer > expected + BEYOND:  # it looks past where the wall was
+                now.append((math.inf, odometer, turned))
+                found.append(math.inf)
+                continue
+            now.append(kept[k])
             if abs(turned - heading) < KEPT_TURN and is_near:
-                found.append(max(last - ahead * way, 0.0))
+                found.append(expected)
             else:
                 self.is_blind = True
                 found.append(math.inf)
@@ -179,11 +193,16 @@ class Lookout:
         """What each ranger saw last that was no mate."""
         return list(self._kept)
 
-    def recall(self, seen: list[Sight], turned: float) -> None:
-        """Hold to what was seen before a detour, where nothing was seen since."""
+    def recall(self, seen: list[Sight], turned: float, aside: float = 0.0) -> None:
+        """Hold to what was seen before a detour, where nothing was seen since.
+
+        The detour has led `aside` metres to the left of where that was seen from.
+        """
         self._kept = [
-            now if abs(now[2] - turned) < KEPT_TURN else before
-            for now, before in zip(self._kept, seen, strict=True)
+            now
+            if abs(now[2] - turned) < KEPT_TURN
+            else (before[0] - aside * math.sin(beam[2]), *before[1:])
+            for now, before, beam in zip(self._kept, seen, self._beams, strict=True)
         ]
 
     def _look(self) -> None:

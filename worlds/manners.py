@@ -2,7 +2,7 @@
 
 Every robot decides for itself, by what it sees and what the beacons say, as on a road:
 keep right where you meet, keep your distance behind, let the one with the lower number
-go first where ways cross, and leave alone who looks around.
+go first where there is no room for both, and leave alone who looks around.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from worlds.lookout import Doing, Mate
+from worlds.precedence import LONG, nearest, patience, presser
 
 __all__ = ["Act", "Self", "Verdict", "is_abreast", "lane_of", "passed", "verdict"]
 
@@ -24,10 +25,12 @@ OPPOSITE = -0.7
 """Cosine of the angle between two ways that meet head on."""
 CROSSING = 0.7
 """Greatest cosine of the angle, either way, between two ways that cross."""
+LEFT = 0.08
+"""Two that meet pass on the left if each is so far to the other's right, in metres."""
 AHEAD = math.radians(75)
 """Whom a robot sees farther round does not come near to its way."""
-PATIENCE = 12.0
-"""Seconds that a robot waits before it makes room; half of it for a lower number."""
+SURE = 1.0
+"""Seconds after which a robot is sure that one which stands off is in its way."""
 LONGEST = 90.0
 """Seconds after which a robot that cannot see goes on as if nothing were there."""
 
@@ -38,7 +41,7 @@ class Act(Enum):
     GO = "go"
     WAIT = "wait"
     ASIDE = "aside"
-    """Step one lane to the right, and go on there."""
+    """Step one lane aside, and go on there."""
     BACK = "back"
     """Back off the way that it came, and come again."""
     LEAVE = "leave"
@@ -51,6 +54,8 @@ class Verdict:
 
     act: Act
     mate: Mate | None = None
+    side: float = -1.0
+    """To which side `Act.ASIDE` leads: 1 to the left, -1 to the right."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +67,9 @@ class Self:
     way: float
     """Sign of the speed that it asks of its wheels."""
     is_aside: bool
-    """Whether it drives one lane to the right."""
+    """Whether it drives aside of its way."""
+    is_cramped: bool
+    """Whether it tried to step aside, and there was no room."""
     is_blind: bool
     """Whether a mate hides what it has to see."""
     waited: float
@@ -125,28 +132,39 @@ def is_abreast(me: Self, mates: Sequence[Mate]) -> bool:
 
 def _on_the_way(me: Self, mates: Sequence[Mate]) -> Verdict:
     """Decide for one that drives along a wall or a hall."""
-    patience = _patience(me, mates)
+    pressing = presser(me.number, mates)
+    if pressing is not None:
+        return Verdict(Act.BACK, pressing)
     if me.is_blind and me.waited < LONGEST:
-        return Verdict(Act.BACK if me.waited > patience else Act.WAIT, _nearest(mates))
+        mate = nearest(mates)
+        return Verdict(
+            Act.BACK if me.waited > patience(me.number, mate) else Act.WAIT, mate
+        )
     near = [mate for mate in mates if mate.distance < me.distance]
     crossing = [m for m in near if m.number < me.number and _crosses(me, m)]
-    if crossing and me.waited < patience:
-        return Verdict(Act.WAIT, _nearest(crossing))
+    if crossing and me.waited < LONG:
+        return Verdict(Act.WAIT, nearest(crossing))
     before = [mate for mate in near if mate.x > 0 and not _is_clear(me, mate)]
-    mate = _nearest(before)
+    mate = nearest(before)
     if mate is None:
         return Verdict(Act.GO)
-    if mate.signal.doing is Doing.FOLLOWS and _cosine(me, mate) < OPPOSITE:
+    doing, longest = mate.signal.doing, patience(me.number, mate)
+    meets = doing is Doing.FOLLOWS and _cosine(me, mate) < OPPOSITE
+    if (meets or doing is Doing.AWAY) and not me.is_cramped:
         if not me.is_aside:
-            return Verdict(Act.ASIDE, mate)
+            return Verdict(Act.ASIDE, mate, 1.0 if mate.y < -LEFT else -1.0)
+        if me.waited > (SURE if doing is Doing.AWAY else longest):
+            return Verdict(Act.ASIDE, mate, math.copysign(1.0, -mate.y))
     elif mate.signal.is_blind and me.waited > 1.0:
         return Verdict(Act.BACK, mate)
-    return Verdict(Act.BACK if me.waited > 2 * patience else Act.WAIT, mate)
+    return Verdict(Act.BACK if me.waited > 2 * longest else Act.WAIT, mate)
 
 
 def _at_a_vertex(me: Self, mates: Sequence[Mate]) -> Verdict:
     """Decide for one that looks around, in small moves."""
-    patience = _patience(me, mates)
+    mate = presser(me.number, mates)
+    if mate is not None:
+        return Verdict(Act.LEAVE, mate)
     touching = [
         mate
         for mate in mates
@@ -154,22 +172,14 @@ def _at_a_vertex(me: Self, mates: Sequence[Mate]) -> Verdict:
         and mate.distance < 2 * me.radius + 4 * GAP
         and not _is_clear(me, mate)
     ]
-    mate = _nearest(touching)
+    mate = nearest(touching)
     if mate is None and me.is_blind and me.waited < LONGEST:
-        mate = _nearest(mates)
+        mate = nearest(mates)
     if mate is None:
         return Verdict(Act.GO)
-    return Verdict(Act.LEAVE if me.waited > patience else Act.WAIT, mate)
-
-
-def _patience(me: Self, mates: Sequence[Mate]) -> float:
-    """Return how long a robot waits: the one with the higher number moves first."""
-    mate = _nearest(mates)
-    return PATIENCE if mate is None or me.number < mate.number else PATIENCE / 2
-
-
-def _nearest(mates: Sequence[Mate]) -> Mate | None:
-    return min(mates, key=lambda mate: mate.distance, default=None)
+    return Verdict(
+        Act.LEAVE if me.waited > patience(me.number, mate) else Act.WAIT, mate
+    )
 
 
 def _is_clear(me: Self, mate: Mate) -> bool:

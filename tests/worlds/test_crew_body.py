@@ -3,7 +3,19 @@
 import numpy as np
 import pytest
 
-from behaviours.port import Align, Centre, Follow, Guide, Reason, Side, Turn
+from behaviours.port import (
+    Align,
+    Centre,
+    Direction,
+    Follow,
+    Guide,
+    Move,
+    Outcome,
+    Readings,
+    Reason,
+    Side,
+    Turn,
+)
 from worlds.arena import Arena
 from worlds.crew import run_together
 from worlds.crew_body import CrewBody, can_pass
@@ -62,6 +74,48 @@ def test_two_pass_each_other_along_a_wall():
         assert end.distance == pytest.approx(4.1, abs=0.08)
         assert body.pose[:2] == pytest.approx((x, 0.3), abs=0.05)
         assert body.collisions == 0
+
+
+def test_two_pass_on_the_left_where_their_ways_lie_so():
+    """Each follows the wall to its left, 62 cm apart: their ways are 2 cm apart."""
+    corridor = make_world([(0, 0), (5, 0), (5, 0.72), (0, 0.72)])
+    for gap in (0.12, 0.02, -0.08):
+        y = 0.36 + gap / 2
+        starts = Pose(0.6, 0.72 - y, EAST), Pose(4.4, y, WEST)
+        arena, bodies = crew(corridor, *starts)
+        for body in bodies:
+            body.begin(Follow(side=Side.RIGHT))
+        ends = [None, None]
+        while None in ends and arena.clock < 200:
+            for k, body in enumerate(bodies):
+                ends[k] = ends[k] or body.poll()
+            arena.step()
+        assert [end and end.reason for end in ends] == [Reason.BLOCKED] * 2
+        assert bodies[0].collisions == bodies[1].collisions == 0
+
+
+def test_two_that_are_abreast_where_both_have_to_step_in_do_so_in_turn():
+    """Each has come to its vertex in its lane; the other is beside it."""
+    arena, bodies = crew(HALL, Pose(2.5, 0.13, EAST), Pose(2.5, 0.31, WEST))
+    outcome = Outcome(0.5, Reason.DONE, Readings())
+    for body in bodies:
+        body.robot.eyes.step_aside(-0.09)
+        body.begin(Follow(Guide.HALL))
+        body._held = outcome
+    arrived, left = [], set()
+    while len(arrived) < 2 and arena.clock < 200:
+        for k in {0, 1} - left:
+            end = bodies[k].poll()
+            if end is outcome:
+                assert abs(bodies[k].pose[1] - 0.22) < 0.03
+                arrived.append((k, arena.clock))
+                bodies[k].begin(Move(1.0, Direction.BACKWARD))  # where it came from
+            elif end is not None:
+                left.add(k)
+        arena.step()
+    (first, _), (second, time) = arrived
+    assert (first, second) == (0, 1)
+    assert time < 100.0
 
 
 def test_one_behind_waits_until_the_corner_is_free():

@@ -82,6 +82,16 @@ def test_what_a_mate_hides_is_as_it_was_before():
     assert not eye.is_blind
 
 
+def test_a_mate_that_stands_where_a_wall_has_ended_hides_no_wall():
+    """It is in the mouth of a hall, 0.48 m to the right, where a wall was at 0.23 m."""
+    arena, eye = lookout((3.5, 0.3))
+    assert eye.screen([0.8, 0.7, 0.23], 0.0, 0.0) == [0.8, 0.7, 0.23]
+    arena.places[1, :2] = 1.1, -0.18
+    arena.walls = arena.walls[:0]
+    assert eye.screen([0.8, 0.7, 0.38], 0.1, 0.0) == [0.8, 0.7, math.inf]
+    assert not eye.is_blind
+
+
 def test_a_wall_before_a_mate_is_a_wall():
     _, eye = lookout((1.6, 0.3))
     assert eye.screen([0.2, 0.7, 0.3], 0.0, 0.0)[0] == 0.2
