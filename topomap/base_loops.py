@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 from behaviours.follow_wall import Leg
 from behaviours.ways import Way, turned
@@ -125,6 +125,11 @@ def _fold(
         Counter(places[k::period]).most_common(1)[0][0]
         for k in range(min(period, len(places)))
     ]
+    standing = likeliest[len(arrivals) % period]
+    for vertex, quarters in chart.links:
+        if vertex == found.here and likeliest[at].ways[quarters] is None:
+            reason = f"the loop walked has no exit {90 * quarters} at vertex {vertex}"
+            _refute(found, f"{reason}, through which the robot came", standing)
     chart.places[found.here] = likeliest[at]
     numbers = [
         found.here if k == at else chart.add_place(place)
@@ -136,7 +141,7 @@ def _fold(
         if end not in chart.links:
             there = numbers[(k + 1) % period], (quarters + 2) % 4
             if there in chart.links:
-                _join_walked(found, there, end[0], likeliest[len(arrivals) % period])
+                _join_walked(found, there, end[0], standing)
             else:
                 chart.add_link(end, there, "WF")
         chart.links[end].measure(arrival, end)
@@ -155,10 +160,17 @@ def _join_walked(
     before, _ = chart.links[there].beyond(there)
     pairs = chart.pairs(before, vertex)
     if pairs is None:
-        found.refuted.append(
+        _refute(
+            found,
             f"the loop walked from vertex {there[0]} does not fit the wall that leads "
-            f"there from vertex {before}"
+            f"there from vertex {before}",
+            standing,
         )
-        found.begin_anew(standing)
-        raise RefutedError(found.refuted[-1])
     chart.join(pairs)
+
+
+def _refute(found: Exploration, reason: str, standing: Place) -> NoReturn:
+    """Unfold the map: it was wrong."""
+    found.refuted.append(reason)
+    found.begin_anew(standing)
+    raise RefutedError(reason)

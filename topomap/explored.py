@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from topomap.chart import Chart
 
@@ -14,14 +14,31 @@ if TYPE_CHECKING:
     from topomap.chart import Place
     from topomap.recognition import Recognition
 
-__all__ = ["Exploration", "RefutedError"]
+__all__ = ["Clue", "Exploration", "RefutedError"]
 
 ERROR = 1e-3
 """A vertex is taken for another, or for a new one, when it is less likely wrong."""
 
 
+class Clue(NamedTuple):
+    """What was found at the end of an edge where the map has something else."""
+
+    source: int
+    """The vertex that the robot came from."""
+    target: int
+    """The one to which the edge leads in the map."""
+    type: str
+    """Of the vertex that was found."""
+    length: float
+    """Of the way there, in metres."""
+
+
 class RefutedError(Exception):
     """The map was wrong; it has been begun anew where the robot stands."""
+
+    def __init__(self, reason: str, clue: Clue | None = None) -> None:
+        super().__init__(reason)
+        self.clue = clue
 
 
 @dataclass(slots=True)

@@ -9,11 +9,12 @@ from behaviours.explore import EXPLORE, State
 from behaviours.follow_broken_wall import follow_broken_wall
 from behaviours.follow_hall import follow_hall
 from behaviours.move_to_wall import move_to_wall
-from behaviours.port import Approach, Reason, Sensor
+from behaviours.port import Approach, Reason, Sensor, Side, Turn
 from behaviours.travel import travel
 from behaviours.ways import Way, turned
 from topomap.base_loops import close_loop, is_open_loop
 from topomap.chart import Place
+from topomap.errors import JobError
 from topomap.explored import Exploration, RefutedError
 from topomap.identifying import identify
 from topomap.walking import goto, step_out
@@ -25,7 +26,14 @@ if TYPE_CHECKING:
     from behaviours.ways import Arrival
     from evidence.walls import LoopCloser
 
-__all__ = ["explore_halls", "first_vertex", "venture"]
+__all__ = ["explore_halls", "first_vertex", "go_elsewhere", "venture"]
+
+BEGINNINGS = 4
+"""How often a map is begun where the robot has lost its wall ..."""
+FIRST = 3
+"""... within so many edges: it stood where a map is not begun easily, ..."""
+WALK = 1.5
+"""... and goes so far from there, in metres, if it can."""
 
 
 def explore_halls(
@@ -65,6 +73,10 @@ def explore_halls(
     closed or a place recognised wrongly, or a vertex was missed. The map is then
     unfolded: it is begun anew where the robot stands, and the robot goes on. It has
     become more careful: loops are walked twice, and places must be ten times as sure.
+
+    A robot that loses its wall within three edges of its first vertex was set down at a
+    bad place, such as a bend or a junction of halls, where it sees no hall: it goes up
+    to 1.5 m straight on, three times at most, and begins there.
     """
     found = Exploration(parameters, closer, sigma, max_walls)
 
@@ -84,23 +96,51 @@ def explore_halls(
         State.OUT: out,
         State.PLACE: place,
     }
-    state = State.LOOK
+    state, left = State.LOOK, BEGINNINGS
     while True:
         try:
             yield from perform(EXPLORE, actions, state)
         except RefutedError:
             is_open = is_open_loop(found.chart, found.here)
             state = State.LOOP if is_open else State.GOTO
+        except (JobError, UnforeseenError):
+            left -= 1
+            if left == 0 or found.walls > FIRST:
+                raise
+            found.clear()
+            yield from go_elsewhere(parameters)
+            state = State.LOOK
         else:
             return found
 
 
+def go_elsewhere(parameters: Parameters) -> Behaviour[None]:
+    """Go straight for a while, to where a map is begun more easily.
+
+    In a bend or a junction of halls a robot that has just been set down sees no hall.
+    """
+    front = (Sensor.FRONT,)
+    for _ in range(4):
+        outcome = yield Approach(front, parameters.r0, keep=parameters.r0, limit=WALK)
+        if outcome.distance > parameters.r0:
+            return
+        yield Turn(Side.LEFT)
+
+
 def _is_in_hall(parameters: Parameters) -> Behaviour[bool]:
-    """Go forward until a wall is in range; return whether a hall is around."""
-    outcome = yield Approach(tuple(Sensor), within=parameters.r0, keep=parameters.r0)
-    if outcome.reason is Reason.STUCK:
-        raise UnforeseenError(State.LOOK, outcome)
-    return outcome.readings.left + outcome.readings.right <= 2 * parameters.r0
+    """Go forward until a wall is in range; return whether a hall is around.
+
+    A robot that looks across a narrow hall has no room to keep its distance from the
+    wall ahead: it turns, until it looks along.
+    """
+    for _ in range(4):
+        outcome = yield Approach(
+            tuple(Sensor), within=parameters.r0, keep=parameters.r0
+        )
+        if outcome.reason not in (Reason.STUCK, Reason.BUMPED):
+            return outcome.readings.left + outcome.readings.right <= 2 * parameters.r0
+        yield Turn(Side.LEFT)
+    raise UnforeseenError(State.LOOK, outcome)
 
 
 def _second_vertex(parameters: Parameters) -> Behaviour[Arrival]:

@@ -8,7 +8,7 @@ from behaviours.travel import travel
 from behaviours.ways import turned
 from topomap.chart import Place, behaviour_of
 from topomap.errors import JobError
-from topomap.explored import RefutedError
+from topomap.explored import Clue, RefutedError
 
 if TYPE_CHECKING:
     from behaviours.port import Behaviour
@@ -55,7 +55,8 @@ def go(found: Exploration, quarters: int) -> Behaviour[None]:
             f"{place.type.name} was found {arrival.length:.2f} m away"
         )
         found.begin_anew(place)
-        raise RefutedError(found.refuted[-1])
+        clue = Clue(source, there, place.type.value, arrival.length)
+        raise RefutedError(found.refuted[-1], clue)
     link.measure(arrival, (source, quarters))
     found.here = there
 
@@ -72,6 +73,11 @@ def step_out(found: Exploration, quarters: int) -> Behaviour[int]:
     way = chart.places[source].ways[quarters]
     place, arrival = yield from leave(found, chart.places[source], quarters)
     back = (quarters + 2) % 4
+    if place.ways[back] is None:
+        raise JobError(
+            f"a vertex {place.type.name} from which no way leads back: the robot has "
+            "lost its wall"
+        )
     there = chart.add_place(place)
     behaviour = behaviour_of(way, place.ways[back])
     link = chart.add_link((source, quarters), (there, back), behaviour)
