@@ -48,6 +48,15 @@ def test_a_late_robot_is_not_there_before_it_comes():
     assert late.robots[1].trail[0][0] >= 120.0
 
 
+def test_four_that_crowd_in_a_small_building_come_to_an_end():
+    """They waited for each other for hours, two of them side by side in a mouth."""
+    building = worlds.make("rooms", np.random.default_rng(12), rooms=2, loops=0)
+    rng = np.random.default_rng(1012)
+    crowd = explore(building, rng, robots=4, body="physical", limit=3000.0)
+    assert crowd.correct
+    assert not any(robot.lost for robot in crowd.robots)
+
+
 def test_bodies_that_cannot_pass_each_other_are_refused():
     with pytest.raises(InputError, match="body: expected bodies of which two pass"):
         run(body="epuck")

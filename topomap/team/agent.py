@@ -2,27 +2,28 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from topomap.explored import Exploration
+from topomap.explored import Clue, Exploration
 from topomap.headings import quarter_of
-from topomap.team.changes import Changes, caught_up
+from topomap.team.changes import Changes
 from topomap.team.choosing import Choice, Costs, Mate, choose
+from topomap.team.disputes import Disputes, accusation
 from topomap.team.frames import Origin
 from topomap.team.frontiers import way_lengths
-from topomap.team.messages import Beacon, MapChange, MapReport, decode, encode
+from topomap.team.hearsay import Hearsay
+from topomap.team.messages import MOST, Beacon, decode, encode
 from topomap.team.sharing import Knowledge, learn, report_of
 from topomap.team.tasks import Event
 
-__all__ = ["BEAT", "MOST", "Agent"]
+__all__ = ["BEAT", "Agent"]
 
 BEAT = 5.0
 """Seconds between two beacons of a robot."""
 PATIENCE = 120.0
 """Seconds after which a robot that is not heard any more is not counted on."""
-MOST = 64
-"""Robots of a team; a map begun anew has its robot's number and so many more."""
 GROWTH = 3
 """Vertices that two strangers' maps must grow by until they are compared again."""
 
@@ -37,6 +38,8 @@ class Agent:
     receive: Callable[[], list[bytes]]
     beset: Callable[[], float | None] = lambda: None
     """Bearing of a robot that waits for this one to go away, in radians."""
+    gave_way: Callable[[], int] = lambda: 0
+    """How often it has given way to others so far."""
     locate: Callable[[], tuple[float, float, float]] | None = None
     """Where it is in a frame that all have: metres, and radians; None without one."""
     allocator: str = "minpos"
@@ -48,6 +51,10 @@ class Agent:
     is_done: bool = False
     """Whether it knows of nothing that is open, and is where it wants to be."""
     done_at: float = 0.0
+    began: float = 0.0
+    """When it began its map, in seconds."""
+    made_way: float = -math.inf
+    """When it last went out of another's way."""
     events: list[Event] = field(default_factory=list)
     report: bytes = b""
     """Its newest map, as it tells it."""
@@ -58,12 +65,14 @@ class Agent:
     _beacons: int = 0
     _next_beacon: float = 0.0
     _next_map: float = 0.0
-    _peers: dict[int, tuple[Beacon, float]] = field(default_factory=dict)
+    _heard: Hearsay = field(default_factory=Hearsay)
     _changes: Changes = field(default_factory=Changes)
-    _reports: dict[int, MapReport] = field(default_factory=dict)
     _learned: dict[int, int] = field(default_factory=dict)
     _refused: dict[int, int] = field(default_factory=dict)
     """Vertices of both maps when they were last refused."""
+    _undisturbed: int = 0
+    """How often it had given way when it began its map."""
+    _disputes: Disputes = field(default_factory=Disputes)
 
     @property
     def robot(self) -> int:
@@ -74,32 +83,26 @@ class Agent:
         """Take in what has arrived; the newest of each kind and robot counts."""
         for data in self.receive():
             message = decode(data)
-            if isinstance(message, MapReport | MapChange):
-                self._hear_map(message)
-            else:
-                peer = self._peers.get(message.sender)
-                if peer is None or message.count > peer[0].count:
-                    self._peers[message.sender] = message, self.now
+            self._heard.take(message, self.now)
+            if isinstance(message, Beacon):
+                self._disputes.accuse(*message.accuses)
 
     def tell(self) -> None:
         """Send a beacon when it is time, and the map to those who lack it."""
         if self.now >= self._next_beacon:
             self._next_beacon = self.now + BEAT
             self._beacons += 1
-            heard = {k: report.version for k, report in self._reports.items()}
-            self.send(
-                encode(
-                    Beacon(
-                        *(
-                            self.known.robot,
-                            self._beacons,
-                            self._version,
-                            self.found.here,
-                        ),
-                        *(self._target, self._is_venturing, heard),
-                    )
-                )
+            beacon = Beacon(
+                sender=self.known.robot,
+                count=self._beacons,
+                version=self._version,
+                here=self.found.here,
+                target=self._target,
+                is_venturing=self._is_venturing,
+                heard={k: report.version for k, report in self._heard.maps.items()},
+                accuses=self._disputes.told_by(self.robot),
             )
+            self.send(encode(beacon))
         base = self._least_heard()
         if self._version and self.now >= self._next_map and base < self._version:
             self._next_map = self.now + BEAT
@@ -109,14 +112,14 @@ class Agent:
 
     def learn(self) -> None:
         """Merge what others have told; what is refused is tried again when it grew."""
-        for sender in sorted(self._reports):
-            report = self._reports[sender]
+        for sender, report in sorted(self._heard.maps.items()):
             size = len(self.known.chart.places) + len(report.places)
             is_old = report.version == self._learned.get(sender)
             if is_old or size < self._refused.get(sender, -GROWTH) + GROWTH:
                 continue
             verdict = learn(self.known, report, self.found.parameters, self.found.sigma)
             self.found.here = self.known.chart.now(self.found.here)
+            self._disputes.judge(sender, verdict, self.now)
             if verdict.accepted:
                 is_first = sender not in self._learned
                 self._learned[sender] = report.version
@@ -128,6 +131,19 @@ class Agent:
                 self._refused[sender] = size
                 self.note("refuses", f"robot {sender}: {verdict.reason}", other=sender)
         self._renew_report()
+
+    def objection(self, *, is_finished: bool) -> str | None:
+        """Return why this robot's map had better be made once more, if so.
+
+        A finished map is doubted only where it fits nobody's, and others were in its
+        robot's sight while it was made.
+        """
+        known, disputes = self.known, self._disputes
+        found = disputes.objection(known, self._heard.maps, self._learned, self.now)
+        was_disturbed = self.gave_way() > self._undisturbed
+        if found is None and is_finished and was_disturbed and not self._learned:
+            found = disputes.doubt(known.chart, self._heard.maps)
+        return found
 
     def settle(self) -> None:
         """Let all know where the map lies, if there is a frame for that."""
@@ -141,11 +157,9 @@ class Agent:
         """Decide where to go next."""
         chart = self.known.chart
         mates = {}
-        for k, (beacon, heard_at) in self._peers.items():
+        for k, beacon in self._heard.lately(self.now, PATIENCE):
             place = self.known.find((k, beacon.here))
-            if place is None or k not in self.known.turns:
-                continue
-            if self.now - heard_at <= PATIENCE:
+            if place is not None and k in self.known.turns:
                 target = self._claim(k, beacon)
                 mates[k] = Mate(place, target, beacon.is_venturing)
         return choose(
@@ -169,13 +183,17 @@ class Agent:
             self._next_beacon = self.now
         self._target, self._is_venturing = target, ventures
 
-    def begin_anew(self, reason: str) -> None:
+    def begin_anew(self, reason: str, clue: Clue | None = None) -> None:
         """Drop the map, and go on as a robot that has just been set down.
 
-        Under another name: what others have learned of its old map stays theirs.
+        Under another name: what others have learned of its old map stays theirs. Where
+        an edge was wrong they are told.
         """
         self.note("begins anew", reason)
-        self.is_done = False
+        if clue is not None:
+            self._disputes.accuse(accusation(self.known.robot, clue))
+        self.is_done, self.began = False, self.now
+        self._undisturbed = self.gave_way()
         found, known = self.found, self.known
         found.clear()
         known.robot += MOST
@@ -183,6 +201,7 @@ class Agent:
         known.turns.clear()
         self._learned.clear()
         self._refused.clear()
+        self._disputes.contradicted.clear()
         self._version, self._state, self.report = 0, (0, 0, 0), b""
         self._changes = Changes()
         self.aim(None)
@@ -196,23 +215,11 @@ class Agent:
             return None
         return vertex, (beacon.target[1] + self.known.turns[robot]) % 4
 
-    def _hear_map(self, message: MapReport | MapChange) -> None:
-        """Keep the newest map of each robot."""
-        last = self._reports.get(message.sender)
-        if isinstance(message, MapChange):
-            newer = None if last is None else caught_up(last, message)
-        else:
-            is_old = last is not None and message.version <= last.version
-            newer = None if is_old else message
-        if newer is not None:
-            self._reports[message.sender] = newer
-
     def _least_heard(self) -> int:
         """Return the oldest version of the map that a robot heard just now has."""
         heard = (
             beacon.heard.get(self.known.robot, 0)
-            for beacon, heard_at in self._peers.values()
-            if self.now - heard_at <= 2 * BEAT
+            for _, beacon in self._heard.lately(self.now, 2 * BEAT)
         )
         return min(heard, default=self._version)
 

@@ -13,12 +13,13 @@ from topomap.errors import InputError
 from topomap.exploration.registry import find_allocator
 from topomap.explored import Exploration
 from topomap.found import MAX_SIGMA, MAX_WALLS
-from topomap.team.agent import MOST, Agent
+from topomap.team.agent import Agent
 from topomap.team.channel import Channel, Radio
 from topomap.team.collecting import merge_all, robot_run
 from topomap.team.faults import Fault
 from topomap.team.frontiers import check_target
 from topomap.team.grid_adapter import grid_lengths
+from topomap.team.messages import MOST
 from topomap.team.placing import place
 from topomap.team.result import TeamRun
 from topomap.team.scheduling import Member, run_by_clocks, run_in_arena
@@ -150,7 +151,7 @@ def explore(
         if target == "grid":
             agent.costs = grid_lengths(parameters, sigma)
         if isinstance(placed, CrewBody):
-            agent.beset = placed.beset
+            agent.beset, agent.gave_way = placed.beset, partial(_detours, placed)
         team.append(Member(agent, placed, fault.comes, fault.dies))
     end = (
         run_by_clocks(team, limit)
@@ -201,6 +202,10 @@ def _check(
 
 def _pose(body: IdealBody | CrewBody) -> tuple[float, float, float]:
     return body.pose
+
+
+def _detours(body: CrewBody) -> int:
+    return body.detours
 
 
 def _agent(

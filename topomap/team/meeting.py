@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from behaviours.parameters import Parameters
     from topomap.team.messages import MapReport
 
-__all__ = ["Meeting", "Overlay", "chart_of", "meet"]
+__all__ = ["LEAST", "Meeting", "Overlay", "chart_of", "meet"]
 
 FALSE_MERGE = 1e-4
 """The greatest probability that an overlay is wrong, where a robot merges a stranger's

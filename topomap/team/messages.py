@@ -5,6 +5,8 @@ from __future__ import annotations
 import msgspec
 
 __all__ = [
+    "MOST",
+    "Accusation",
     "Beacon",
     "End",
     "LinkRow",
@@ -17,6 +19,8 @@ __all__ = [
     "encode",
 ]
 
+MOST = 64
+"""Robots of a team; a map begun anew has its robot's number and so many more."""
 Name = tuple[int, int]
 """A vertex by the robot that met it, and that robot's number for it."""
 End = tuple[int, int]
@@ -77,6 +81,19 @@ class MapChange(msgspec.Struct, frozen=True, array_like=True, tag="change"):
     """As in `MapReport`, all of them."""
 
 
+class Accusation(msgspec.Struct, frozen=True, array_like=True):
+    """What a robot found at the end of an edge, where its map had something else."""
+
+    source: Name
+    """The vertex that it came from, under the name in the map that it dropped."""
+    target: Name
+    """The vertex to which the edge should have led."""
+    type: str
+    """Of the vertex that was found."""
+    length: float
+    """Of the way there, in metres."""
+
+
 class Beacon(msgspec.Struct, frozen=True, array_like=True, tag="beacon"):
     """Where a robot is and what it is about to do."""
 
@@ -93,6 +110,8 @@ class Beacon(msgspec.Struct, frozen=True, array_like=True, tag="beacon"):
     """Whether it has gone through that exit."""
     heard: dict[int, int]
     """The version of each other robot's map that it has."""
+    accuses: tuple[Accusation, ...] = ()
+    """Edges that it has found to be wrong."""
 
 
 Message = MapReport | MapChange | Beacon
@@ -108,7 +127,7 @@ def encode(message: Message) -> bytes:
     --------
     >>> hello = Beacon(0, 1, 1, 4, (4, 2), False, {1: 3})
     >>> decode(encode(hello)) == hello, len(encode(hello))
-    (True, 19)
+    (True, 20)
     """
     return _ENCODER.encode(message)
 

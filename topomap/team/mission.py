@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from behaviours.automaton import UnforeseenError
 from topomap.errors import JobError
 from topomap.explored import RefutedError
-from topomap.exploring import first_vertex, venture
+from topomap.exploring import first_vertex, go_elsewhere, venture
 from topomap.headings import angle_of
 from topomap.team.agent import BEAT, Agent
 from topomap.team.choosing import Choice
@@ -22,6 +22,10 @@ __all__ = ["explore_with_others"]
 
 LONGEST_WAIT = 60.0
 """Seconds after which a robot goes where another should have gone."""
+FORGOTTEN = 60.0
+"""Seconds after which a robot that makes way may go back to where it came from."""
+SOON = 60.0
+"""A map that is begun anew so soon, in seconds, was begun at a bad place."""
 LIVES = 20
 """How often a robot begins anew until it is given up."""
 
@@ -49,7 +53,11 @@ def explore_with_others(agent: Agent) -> Task:
             yield from _explore(agent)
         except (JobError, RefutedError, UnforeseenError) as error:
             last = error
-            agent.begin_anew(str(error))
+            is_bad_place = agent.now - agent.began < SOON
+            clue = error.clue if isinstance(error, RefutedError) else None
+            agent.begin_anew(str(error), clue)
+            if is_bad_place:
+                yield from _attentively(agent, go_elsewhere(agent.found.parameters))
     raise last
 
 
@@ -62,6 +70,9 @@ def _explore(agent: Agent) -> Task:
     while True:
         agent.hear()
         agent.learn()
+        reason = agent.objection(is_finished=False)
+        if reason is not None:
+            raise RefutedError(reason)
         choice = agent.choose()
         if not found.closed or found.walls >= found.max_walls:
             choice = Choice(None, False, "a loop was never closed")
@@ -74,6 +85,9 @@ def _explore(agent: Agent) -> Task:
             continue
         waited = 0.0
         if choice.target is None:
+            reason = agent.objection(is_finished=True)
+            if reason is not None:
+                raise RefutedError(reason)
             yield from _rest(agent, choice)
             continue
         agent.is_done = False
@@ -106,7 +120,11 @@ def _rest(agent: Agent, choice: Choice) -> Task:
 
 
 def _stand(agent: Agent) -> Task:
-    """Stand for a beat, or go one edge out of the way of another robot."""
+    """Stand for a beat, or go one edge out of the way of another robot.
+
+    Not back to where it has just come from for the same reason: out of a blind alley it
+    comes past the other.
+    """
     found = agent.found
     bearing = agent.beset()
     exits = [q for q in range(4) if (found.here, q) in found.chart.links]
@@ -114,9 +132,12 @@ def _stand(agent: Agent) -> Task:
         yield Wait(BEAT)
         return
     facing = bearing + angle_of(found.heading)
-    away = min(exits, key=lambda q: math.cos(angle_of(q) - facing))
+    is_new = agent.now - agent.made_way > FORGOTTEN
+    back = None if is_new else (found.heading + 2) % 4
+    away = min(exits, key=lambda q: (q == back, math.cos(angle_of(q) - facing)))
     agent.note("makes way", "another robot waits for it", (found.here, away))
     yield from _attentively(agent, go(found, away))
+    agent.made_way = agent.now
 
 
 def _note_once(agent: Agent, kind: str, choice: Choice) -> None:

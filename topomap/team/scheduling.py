@@ -20,10 +20,12 @@ if TYPE_CHECKING:
     from worlds.arena import Arena
     from worlds.ideal import IdealBody
 
+__all__ = ["Member", "run_by_clocks", "run_in_arena"]
+
 MARKED = 10
 """Ticks of an arena between two points of a trail."""
-
-__all__ = ["Member", "run_by_clocks", "run_in_arena"]
+HEARD = 15.0
+"""Seconds that a robot which is done goes on listening."""
 
 
 @dataclass(slots=True)
@@ -101,7 +103,7 @@ def run_by_clocks(team: Sequence[Member], limit: float) -> float:
         took = _act(member, tasks[k], answers, k, now)
         if not member.is_out:
             heapq.heappush(queue, (now + took, k))
-        if _is_over(team):
+        if _is_over(team, now):
             break
     return _end(team)
 
@@ -155,7 +157,7 @@ def run_in_arena(team: Sequence[Member], arena: Arena, limit: float) -> float:
             for k, member in enumerate(team):
                 if not (member.is_out or k in away):
                     member.mark(arena.clock)
-        if _is_over(team):
+        if _is_over(team, arena.clock):
             return _end(team)
         arena.step()
     return limit
@@ -181,8 +183,10 @@ def _decide(
     return 0.0
 
 
-def _is_over(team: Sequence[Member]) -> bool:
-    return all(member.is_out or member.agent.is_done for member in team)
+def _is_over(team: Sequence[Member], now: float) -> bool:
+    """Return whether all are done, and have had time to hear of it."""
+    working = [member.agent for member in team if not member.is_out]
+    return all(agent.is_done and now - agent.done_at >= HEARD for agent in working)
 
 
 def _end(team: Sequence[Member]) -> float:

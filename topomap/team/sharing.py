@@ -55,6 +55,8 @@ class Verdict:
     """Why it was refused; how it was merged otherwise."""
     added: int = 0
     """Vertices that were new."""
+    contradicts: bool = False
+    """Whether the maps are known to overlap, and say different things there."""
 
 
 def report_of(known: Knowledge, version: int) -> MapReport:
@@ -155,7 +157,7 @@ def lay_over(
     same = grow(chart, [(number[a], b) for a, b in pairs])
     if same is None:
         remove(chart, set(number.values()))
-        return Verdict(False, "it contradicts what is known")
+        return Verdict(False, "it contradicts what is known", contradicts=True)
     chart.join(same)
     measure_once(chart)
     for row in report.places:
