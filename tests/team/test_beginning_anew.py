@@ -86,10 +86,10 @@ def test_a_robot_gives_up_the_map_that_the_others_contradict():
     assert "vertex 0 to 1" in agent.objection(is_finished=False)
 
 
-def test_a_finished_map_is_doubted_only_if_others_were_in_sight_as_it_was_made():
+def test_a_far_smaller_map_is_doubted_if_others_were_in_sight_as_it_was_made():
     """Another robot has finished a map, too, and the two have nothing in common."""
     place = PlaceRow(0, "INT", ("", "", "", ""), ())
-    rows = tuple(msgspec.structs.replace(place, number=k) for k in range(4))
+    rows = tuple(msgspec.structs.replace(place, number=k) for k in range(9))
     agent = new_agent(3, [], [encode(MapReport(1, 1, rows, (), {}))])
     agent.hear()
     assert agent.objection(is_finished=True) is None

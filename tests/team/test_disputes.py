@@ -143,16 +143,35 @@ def test_an_edge_found_wrong_is_an_objection():
     )
 
 
+def row(corners):
+    """Return the report of a finished map with so many vertices, from robot 2."""
+    known = Knowledge(2, Chart())
+    for _ in range(corners):
+        known.chart.add_place(Place(VertexType.INT, (None,) * 4))
+    return {2: report_of(known, 1)}
+
+
 def test_a_finished_map_that_fits_nobodys_is_doubted_once():
-    known, disputes = square(), Disputes()
-    other = square(robot=2)
-    reports = {2: report_of(other, 1)}
-    assert disputes.doubt(known.chart, reports) == (
+    chart, disputes = square().chart, Disputes()
+    assert disputes.doubt(chart, row(5), was_disturbed=False) == (
         "it is finished, as is that of robot 2, and they differ"
     )
-    assert disputes.doubt(known.chart, reports) is None
-    known.chart.add_place(Place(VertexType.INT, (None, None, None, None)))
-    assert disputes.doubt(known.chart, reports) is not None
+    assert disputes.doubt(chart, row(5), was_disturbed=False) is None
+    chart.add_place(Place(VertexType.INT, (None,) * 4))
+    assert disputes.doubt(chart, row(5), was_disturbed=False) is not None
+
+
+@pytest.mark.parametrize(("corners", "doubted"), [(3, False), (4, True), (8, True)])
+@pytest.mark.parametrize("was_disturbed", [False, True])
+def test_maps_of_similar_size_may_be_of_one_place(corners, doubted, was_disturbed):
+    found = Disputes().doubt(square().chart, row(corners), was_disturbed=was_disturbed)
+    assert (found is not None) == doubted
+
+
+@pytest.mark.parametrize("was_disturbed", [False, True])
+def test_a_mouth_that_was_hidden_may_have_led_to_much_more(was_disturbed):
+    found = Disputes().doubt(square().chart, row(9), was_disturbed=was_disturbed)
+    assert (found is not None) == was_disturbed
 
 
 def test_a_finished_map_is_not_doubted_while_others_still_explore():
@@ -160,5 +179,6 @@ def test_a_finished_map_is_not_doubted_while_others_still_explore():
     other.chart.links.pop((0, 0))
     other.chart.links.pop((1, 2))
     assert any(other.chart.unexplored())
-    assert Disputes().doubt(square().chart, {2: report_of(other, 1)}) is None
-    assert Disputes().doubt(square().chart, {}) is None
+    reports = {2: report_of(other, 1)}
+    assert Disputes().doubt(square().chart, reports, was_disturbed=True) is None
+    assert Disputes().doubt(square().chart, {}, was_disturbed=True) is None

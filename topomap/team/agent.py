@@ -133,16 +133,13 @@ class Agent:
         self._renew_report()
 
     def objection(self, *, is_finished: bool) -> str | None:
-        """Return why this robot's map had better be made once more, if so.
-
-        A finished map is doubted only where it fits nobody's, and others were in its
-        robot's sight while it was made.
-        """
+        """Return why this robot's map had better be made once more, if so."""
         known, disputes = self.known, self._disputes
         found = disputes.objection(known, self._heard.maps, self._learned, self.now)
-        was_disturbed = self.gave_way() > self._undisturbed
-        if found is None and is_finished and was_disturbed and not self._learned:
-            found = disputes.doubt(known.chart, self._heard.maps)
+        if found is None and is_finished and not self._learned:
+            was_disturbed = self.gave_way() > self._undisturbed
+            maps = self._heard.maps
+            found = disputes.doubt(known.chart, maps, was_disturbed=was_disturbed)
         return found
 
     def settle(self) -> None:

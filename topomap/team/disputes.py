@@ -24,6 +24,9 @@ LONGEST = 30.0
 """Seconds for which maps contradict each other until a robot gives up its own."""
 TOLD = 4
 """So many of a robot's latest accusations go with each of its beacons."""
+LIKE = 0.5
+"""One of two maps of the same place has at least so many vertices, in parts of the
+other's."""
 SAME = 0.5
 """Two robots have found the same thing if their ways differ by less, in metres."""
 
@@ -181,18 +184,24 @@ class Disputes:
         against = sorted(k for k in stands if stands[k] is Stand.CONTRADICTS)
         return f"the maps of robots {', '.join(map(str, against))} contradict it"
 
-    def doubt(self, chart: Chart, reports: Mapping[int, MapReport]) -> str | None:
+    def doubt(
+        self, chart: Chart, reports: Mapping[int, MapReport], *, was_disturbed: bool
+    ) -> str | None:
         """Return why a finished map that fits nobody's is doubted, if it is.
 
-        Where another robot has finished one too; once, unless it comes out differently
-        the next time.
+        Where another robot has finished one, of a size that may be the same place's, or
+        of any size where others were in the robot's sight as it made its own. Once,
+        unless it comes out differently the next time.
         """
         size = len(chart.places), len(chart.links)
         if size in self.finished:
             return None
         for sender, report in reports.items():
             theirs = chart_of(report)
-            if len(theirs.places) >= LEAST and not any(theirs.unexplored()):
+            less, more = sorted((len(chart.places), len(theirs.places)))
+            is_like = was_disturbed or less >= LIKE * more
+            is_finished = len(theirs.places) >= LEAST and not any(theirs.unexplored())
+            if is_like and is_finished:
                 self.finished.add(size)
                 return f"it is finished, as is that of robot {sender}, and they differ"
         return None
