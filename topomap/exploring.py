@@ -96,7 +96,7 @@ def explore_halls(
         State.OUT: out,
         State.PLACE: place,
     }
-    state, left = State.LOOK, BEGINNINGS
+    state, left, before = State.LOOK, BEGINNINGS, 0
     while True:
         try:
             yield from perform(EXPLORE, actions, state)
@@ -105,8 +105,9 @@ def explore_halls(
             state = State.LOOP if is_open else State.GOTO
         except (JobError, UnforeseenError):
             left -= 1
-            if left == 0 or found.walls > FIRST:
+            if left == 0 or found.walls - before > FIRST or found.refuted:
                 raise
+            before = found.walls
             found.clear()
             yield from go_elsewhere(parameters)
             state = State.LOOK

@@ -123,6 +123,7 @@ class CrewBody(PhysicalBody):
     def lift(self) -> None:
         """Take the robot off the floor: nobody meets it, and it does nothing."""
         self.halt()
+        self._detour = self._held = None
         self.arena.lift(self._simulated.disc)
 
     def lower(self) -> bool:

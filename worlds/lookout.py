@@ -175,12 +175,13 @@ class Lookout:
             ahead = math.cos(self._beams[k][2])
             is_near = abs(way) < KEPT_WAY or ahead > AHEAD
             expected = max(last - ahead * way, 0.0)
-            if answer > expected + BEYOND:  # it looks past where the wall was
+            is_same_way = abs(turned - heading) < KEPT_TURN
+            if is_same_way and answer > expected + BEYOND:  # past where the wall was
                 now.append((math.inf, odometer, turned))
                 found.append(math.inf)
                 continue
             now.append(kept[k])
-            if abs(turned - heading) < KEPT_TURN and is_near:
+            if is_same_way and is_near:
                 found.append(expected)
             else:
                 self.is_blind = True

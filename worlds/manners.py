@@ -31,8 +31,6 @@ AHEAD = math.radians(75)
 """Whom a robot sees farther round does not come near to its way."""
 SURE = 1.0
 """Seconds after which a robot is sure that one which stands off is in its way."""
-LONGEST = 90.0
-"""Seconds after which a robot that cannot see goes on as if nothing were there."""
 
 
 class Act(Enum):
@@ -135,7 +133,7 @@ def _on_the_way(me: Self, mates: Sequence[Mate]) -> Verdict:
     pressing = presser(me.number, mates)
     if pressing is not None:
         return Verdict(Act.BACK, pressing)
-    if me.is_blind and me.waited < LONGEST:
+    if me.is_blind:
         mate = nearest(mates)
         return Verdict(
             Act.BACK if me.waited > patience(me.number, mate) else Act.WAIT, mate
@@ -173,7 +171,7 @@ def _at_a_vertex(me: Self, mates: Sequence[Mate]) -> Verdict:
         and not _is_clear(me, mate)
     ]
     mate = nearest(touching)
-    if mate is None and me.is_blind and me.waited < LONGEST:
+    if mate is None and me.is_blind:
         mate = nearest(mates)
     if mate is None:
         return Verdict(Act.GO)

@@ -69,10 +69,12 @@ def may_return(
     return waited > AWAY and not goes_first
 
 
-def yields_to(mate: Mate) -> int:
+def yields_to(number: int, mate: Mate) -> int:
     """Return for whom a robot makes room if it gives way to a mate: it, or its own."""
     other = mate.signal.yields_to
-    return mate.number if other is None else min(mate.number, other)
+    if other is None or other == number:
+        return mate.number
+    return min(mate.number, other)
 
 
 def presser(number: int, mates: Sequence[Mate]) -> Mate | None:

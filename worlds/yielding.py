@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from worlds.detours import Stay, back_off, leave, sidestep
 from worlds.lookout import Doing
-from worlds.manners import LONGEST, Act, Self, Verdict, verdict
+from worlds.manners import Act, Self, Verdict, verdict
 from worlds.precedence import may_return, yields_to
 from worlds.straight import Control, stop
 
@@ -25,8 +25,6 @@ HIDDEN = 1.1
 """How far it goes off from whom it makes room for, in the same parts, if it can."""
 IN = 0.01
 """A robot that is no farther aside, in metres, is in the middle."""
-HEEDLESS = 10.0
-"""Seconds for which a robot that has waited too long goes on unseeing."""
 
 
 @dataclass(slots=True)
@@ -45,8 +43,6 @@ class Yielder:
     """Its clock, in seconds."""
     begun: float = 0.0
     """What the wheels had counted when its primitive began, in metres."""
-    heedless_until: float = 0.0
-    """Until when it goes on as if nothing were there, in seconds."""
 
 
 def look_at_oneself(one: Yielder) -> Self:
@@ -59,7 +55,7 @@ def look_at_oneself(one: Yielder) -> Self:
         way=math.copysign(1.0, robot.speed_asked) if robot.speed_asked else 0.0,
         is_aside=one.robot.eyes.aside != 0.0,
         is_cramped=False,
-        is_blind=one.lookout.is_blind and looks and one.now() >= one.heedless_until,
+        is_blind=one.lookout.is_blind and looks,
         waited=0.0,
         radius=robot.profile.radius,
         distance=one.distance,
@@ -91,8 +87,6 @@ def give_way(one: Yielder, me: Self) -> Control[None]:
         robot.remember(memory)
         lookout.recall(seen, robot.turned, one.robot.eyes.aside - before)
         since = one.now()
-    if waited >= LONGEST:
-        one.heedless_until = one.now() + HEEDLESS
     robot.remember(memory)
     signal.waits_for, signal.is_blind = None, False
 
@@ -127,7 +121,7 @@ def _make_room(one: Yielder, found: Verdict) -> Control[None]:
     if found.act is Act.ASIDE:
         yield from sidestep(robot, lookout, found.side * one.lane)
         return
-    one.signal.yields_to = yields_to(mate)
+    one.signal.yields_to = yields_to(one.number, mate)
     least = STEP * one.distance
     far = max(least, HIDDEN * one.distance - mate.distance)
     behind = min(far, robot.odometer - one.begun)
@@ -144,6 +138,7 @@ def _stay(one: Yielder) -> Stay:
 
     def wait() -> Control[None]:
         doing, signal.doing, signal.waits_for = signal.doing, Doing.AWAY, None
+        signal.is_blind = False
         since = one.now()
         while not may_return(
             one.number, one.distance, one.now() - since, one.lookout.mates

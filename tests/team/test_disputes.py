@@ -18,7 +18,7 @@ from topomap.team.disputes import (
 from topomap.team.messages import MOST
 from topomap.team.sharing import Knowledge, Verdict, report_of
 
-YES, NO, STRANGE = Stand.AGREES, Stand.CONTRADICTS, Stand.STRANGE
+YES, NO = Stand.AGREES, Stand.CONTRADICTS
 REFUSED = Verdict(False, "it contradicts what is known", contradicts=True)
 
 
@@ -33,7 +33,7 @@ REFUSED = Verdict(False, "it contradicts what is known", contradicts=True)
         (2, {0: YES, 1: NO, 3: NO}, False),
         (1, {0: NO}, True),
         (0, {1: NO}, False),
-        (3, {0: STRANGE, 1: NO, 2: STRANGE}, True),
+        (3, {1: NO}, True),
     ],
 )
 def test_the_smaller_camp_is_outvoted(robot, stands, outvoted):

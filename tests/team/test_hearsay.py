@@ -58,3 +58,14 @@ def test_a_change_of_a_map_that_was_not_heard_is_of_no_use():
     heard.take(report(1, 2), 0.0)
     heard.take(change, 0.0)
     assert heard.maps[1].version == 3
+
+
+@pytest.mark.parametrize("order", list(permutations(range(3))))
+def test_a_map_is_forgotten_as_soon_as_its_robot_says_that_it_has_begun_anew(order):
+    """It takes minutes until it tells its new map."""
+    messages = [report(1, 7), beacon(1, 30), beacon(1 + MOST, 31)]
+    heard = Hearsay()
+    for k in order:
+        heard.take(messages[k], 0.0)
+    assert heard.maps == {}
+    assert list(heard.beacons) == [1 + MOST]

@@ -54,10 +54,11 @@ def test_it_stays_off_longer_while_a_lower_number_is_at_work(doing, returns):
 
 def test_of_a_file_all_make_room_for_the_one_that_goes_first():
     """Robot 0 wants to come out of an alley; 2 backs off, and 3 stands behind it."""
-    assert yields_to(mate(0)) == 0
+    assert yields_to(2, mate(0)) == 0
     behind = mate(2, yields_to=0, presses=3)
     assert presser(3, [mate(1), behind]) is behind
-    assert yields_to(behind) == 0
+    assert yields_to(3, behind) == 0
+    assert yields_to(0, behind) == 2
     assert presser(1, [behind]) is None
 
 

@@ -115,7 +115,8 @@ class Agent:
         for sender, report in sorted(self._heard.maps.items()):
             size = len(self.known.chart.places) + len(report.places)
             is_old = report.version == self._learned.get(sender)
-            if is_old or size < self._refused.get(sender, -GROWTH) + GROWTH:
+            is_refused = size < self._refused.get(sender, -GROWTH) + GROWTH
+            if is_old or (is_refused and not self._disputes.is_open(sender)):
                 continue
             verdict = learn(self.known, report, self.found.parameters, self.found.sigma)
             self.found.here = self.known.chart.now(self.found.here)
@@ -128,8 +129,10 @@ class Agent:
                     reason = f"robot {sender}: {verdict.added} new vertices"
                     self.note("merges", reason, other=sender)
             else:
+                if self._refused.get(sender) != size:
+                    reason = f"robot {sender}: {verdict.reason}"
+                    self.note("refuses", reason, other=sender)
                 self._refused[sender] = size
-                self.note("refuses", f"robot {sender}: {verdict.reason}", other=sender)
         self._renew_report()
 
     def objection(self, *, is_finished: bool) -> str | None:

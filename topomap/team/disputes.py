@@ -38,8 +38,6 @@ class Stand(Enum):
     """It is part of it."""
     CONTRADICTS = "contradicts"
     """Both hold that they have met the same place, and say different things of it."""
-    STRANGE = "strange"
-    """Nothing tells how the two lie to each other."""
 
 
 def is_outvoted(robot: int, stands: Mapping[int, Stand]) -> bool:
@@ -140,6 +138,10 @@ class Disputes:
         else:
             self.contradicted.pop(sender, None)
 
+    def is_open(self, sender: int) -> bool:
+        """Return whether another robot's map has contradicted this one's so far."""
+        return sender in self.contradicted
+
     def accuse(self, *accusations: Accusation) -> None:
         """Note what robots have found to be wrong."""
         self.accused.update(dict.fromkeys(accusations))
@@ -190,7 +192,7 @@ class Disputes:
         """Return why a finished map that fits nobody's is doubted, if it is.
 
         Where another robot has finished one, of a size that may be the same place's, or
-        of any size where others were in the robot's sight as it made its own. Once,
+        of any size where the robot has given way since it began its own. Once,
         unless it comes out differently the next time.
         """
         size = len(chart.places), len(chart.links)

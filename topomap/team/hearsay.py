@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TypeVar
 
 from topomap.team.changes import caught_up
 from topomap.team.messages import MOST, Beacon, MapChange, MapReport, Message
 
 __all__ = ["Hearsay"]
-
-Heard = TypeVar("Heard")
 
 
 @dataclass(slots=True)
@@ -24,20 +21,27 @@ class Hearsay:
 
     beacons: dict[int, tuple[Beacon, float]] = field(default_factory=dict)
     maps: dict[int, MapReport] = field(default_factory=dict)
+    _latest: dict[int, int] = field(default_factory=dict)
+    """The highest number of each robot from which anything was heard."""
 
     def take(self, message: Message, now: float) -> None:
         """Keep a message if it is newer than what was heard of its kind and sender."""
         sender = message.sender
+        former = self._latest.get(sender % MOST, sender)
+        if sender < former:
+            return
+        if sender > former:
+            self.beacons.pop(former, None)
+            self.maps.pop(former, None)
+        self._latest[sender % MOST] = sender
         if isinstance(message, Beacon):
             last = self.beacons.get(sender)
             if last is None or message.count > last[0].count:
                 self.beacons[sender] = message, now
-                _forget_former(self.beacons)
             return
         newer = self._newer(message)
         if newer is not None:
             self.maps[sender] = newer
-            _forget_former(self.maps)
 
     def lately(self, now: float, within: float) -> Iterator[tuple[int, Beacon]]:
         """Return the robots heard within so many seconds, and what they said."""
@@ -51,13 +55,3 @@ class Hearsay:
             return None if last is None else caught_up(last, message)
         is_old = last is not None and message.version <= last.version
         return None if is_old else message
-
-
-def _forget_former(heard: dict[int, Heard]) -> None:
-    """Keep the highest number of each robot."""
-    latest: dict[int, int] = {}
-    for sender in heard:
-        latest[sender % MOST] = max(sender, latest.get(sender % MOST, sender))
-    for sender in list(heard):
-        if sender != latest[sender % MOST]:
-            del heard[sender]

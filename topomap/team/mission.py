@@ -64,6 +64,7 @@ def explore_with_others(agent: Agent) -> Task:
 def _explore(agent: Agent) -> Task:
     """Explore, from where the robot stands, with nothing known."""
     found, chart = agent.found, agent.found.chart
+    agent.began = agent.now
     yield from _attentively(agent, first_vertex(found))
     agent.settle()
     waited = 0.0

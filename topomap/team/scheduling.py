@@ -24,8 +24,8 @@ __all__ = ["Member", "run_by_clocks", "run_in_arena"]
 
 MARKED = 10
 """Ticks of an arena between two points of a trail."""
-HEARD = 15.0
-"""Seconds that a robot which is done goes on listening."""
+HEARD = 45.0
+"""Seconds that a robot which is done goes on listening: time to settle disputes."""
 
 
 @dataclass(slots=True)

@@ -7,7 +7,7 @@ are merged as those of strangers are, or are refused until they have grown.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from topomap.chart import Chart
@@ -121,13 +121,15 @@ def learn(
     """
     common = _turn_by_names(known, report)
     if common is None:
-        meeting = meet(known.chart, report, _frame(known, report), parameters, sigma)
+        frame = _frame(known, report)
+        meeting = meet(known.chart, report, frame, parameters, sigma)
         verdict = Verdict(False, meeting.reason)
         for turn, pairs in meeting.overlays:
             verdict = lay_over(known, report, turn, pairs)
             if verdict.accepted:
                 break
-        return verdict
+        # In a common frame it may lie elsewhere.
+        return verdict if frame is None else replace(verdict, contradicts=False)
     return lay_over(known, report, common, _namesakes(known, report))
 
 
