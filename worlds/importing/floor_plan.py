@@ -48,6 +48,10 @@ def import_floor_plan(
             f"axes; expected at most {slanted:.0%}",
         )
     rooms = square_up(plan.rooms, angle, tolerance, stair)
+    if not rooms:
+        raise WorldError(
+            f"{path}: rooms", "none is left when squared up; expected one at least"
+        )
     lines = [shapely.get_coordinates(room.exterior) for room in rooms]
     walls = np.concatenate([np.hstack([ring[:-1], ring[1:]]) for ring in lines])
     solid = shapely.union_all([thick(ring, wall / 2) for ring in lines])

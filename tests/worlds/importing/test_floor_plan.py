@@ -163,6 +163,11 @@ def test_what_is_no_plan_is_refused(tmp_path, text, message):
             r"scale: expected at most 10000 m",
         ),
         ("<value>1000</value>", "<value>inf</value>", r"real_distance.* got 'inf'"),
+        (
+            "<value>1000</value>",
+            "<value>1</value>",
+            r"rooms: none is left when squared",
+        ),
         ('x="4"', 'x="four"', r"space\[0\]/bounding_polygon/point: .*'four'"),
         ('x="4"', 'x="nan"', r"space\[0\]/bounding_polygon/point: .*'nan'"),
         ('x="4"', 'z="4"', r"space\[0\]/bounding_polygon/point: expected numbers"),
