@@ -120,3 +120,13 @@ def test_what_was_seen_before_a_detour_is_recalled_where_nothing_new_was():
 
 def test_beacons_reach_farther_than_rangers():
     assert beacon_reach(GENERIC) == pytest.approx(1.5 * 0.9)
+
+
+def test_what_was_seen_before_a_step_aside_is_as_far_off_as_it_now_is():
+    """From 9 cm farther to the left the wall on the right is 9 cm farther away."""
+    _, eye = lookout()
+    eye.screen([0.8, 0.7, 0.3], 0.0, 0.0)
+    seen = eye.seen
+    eye.screen([0.5, 0.5, 0.5], 0.0, 1.5)
+    eye.recall(seen, 0.0, 0.09)
+    assert [sight[0] for sight in eye.seen] == pytest.approx([0.8, 0.61, 0.39])
